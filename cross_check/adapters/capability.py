@@ -1,0 +1,168 @@
+"""What the translations to all external codes ask of a scene before they look at it one by one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from cross_check.adapters.interface import InvalidScene, NotComparable, Row
+from cross_check.adapters.render import number, numbers, word
+from cross_check.scene import Mirror, Model, Pair, Scene, Vector
+
+AXES = "xyz"
+# Young's modulus [Pa] typed for a rigid material: (1 - nu^2)/E vanishes beside every real material, to the last bit.
+RIGID_YOUNG = 1e40
+# Relative tolerance for values that the scene and the code both form from the same inputs: rounding only.
+SAME = 1e-12
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane normal to an axis: body index, axis 0-2, side +1 or -1 of the particles, position [m], velocity [m/s]."""
+
+    index: int
+    name: str
+    material: int
+    axis: int
+    side: int
+    position: float
+    velocity: Vector
+
+
+def check(scene: Scene) -> None:
+    """Raises InvalidScene for a scene that no code can run, NotComparable for what no translation has yet."""
+    for name in (scene.name, *(m.name for m in scene.materials), *(b.name for b in scene.bodies)):
+        word(name)
+    if scene.steps <= 0 or scene.output_every <= 0 or scene.steps % scene.output_every:
+        raise InvalidScene(
+            f"steps {scene.steps} is not a positive multiple of output_every {scene.output_every}: "
+            "the last sample would not be the last step"
+        )
+    if not scene.time_step > 0:
+        raise InvalidScene(f"time_step {scene.time_step!r} is not positive")
+    if not scene.particles:
+        raise InvalidScene("the scene has no particles")
+    if scene.model.normal.law != "hertz":
+        raise NotComparable(f"the normal law {scene.model.normal.law} has no translation (known: hertz)")
+    if scene.model.normal.force_cut not in ("on", "off", "default"):
+        raise InvalidScene(f"force_cut {scene.model.normal.force_cut!r} is unknown (known: on, off, default)")
+    for boundary in scene.domain.boundary:
+        if boundary not in ("open", "periodic"):
+            raise InvalidScene(f"boundary {boundary!r} is unknown (known: open, periodic)")
+    _check_particles(scene)
+
+
+def _check_particles(scene: Scene) -> None:
+    low, high = scene.domain.min, scene.domain.max
+    for index, particle in enumerate(scene.particles):
+        where = f"particles[{index}]"
+        if not (particle.radius > 0 and particle.mass > 0):
+            raise InvalidScene(f"{where}: radius and mass must be positive")
+        if scene.materials[particle.material].rigid:
+            raise NotComparable(f"{where} is of a rigid material: a code needs its Young's modulus")
+        sphere = 0.4 * particle.mass * particle.radius**2
+        if abs(particle.moment_of_inertia - sphere) > SAME * sphere:
+            raise NotComparable(f"{where} has a moment of inertia that is not 2/5 m R^2, the only one of the code")
+        if not all(a <= x <= b for a, x, b in zip(low, particle.position, high, strict=True)):
+            raise InvalidScene(f"{where} lies outside of the domain")
+
+
+def planes(scene: Scene) -> list[Plane]:
+    """The bodies as planes normal to an axis. Raises NotComparable for any other body."""
+    result: list[Plane] = []
+    for index, body in enumerate(scene.bodies):
+        if body.shape.kind != "plane":
+            raise NotComparable(f"body {body.name}: the shape {body.shape.kind} has no translation (known: plane)")
+        axes = [axis for axis in range(3) if body.shape.normal[axis] != 0.0]
+        if len(axes) != 1 or abs(body.shape.normal[axes[0]]) != 1.0:
+            raise NotComparable(f"body {body.name}: only planes whose normal lies along x, y or z have a translation")
+        axis = axes[0]
+        if scene.domain.boundary[axis] == "periodic":
+            raise InvalidScene(f"body {body.name} is normal to {AXES[axis]}, along which the domain is periodic")
+        velocity = (0.0, 0.0, 0.0)
+        if body.motion.kind == "prescribed" and body.motion.velocity is not None:
+            velocity = body.motion.velocity
+        elif body.motion.kind != "fixed":
+            raise NotComparable(f"body {body.name}: the motion {body.motion.kind} has no translation")
+        side = 1 if body.shape.normal[axis] > 0 else -1
+        result.append(Plane(index, body.name, body.material, axis, side, body.shape.point[axis], velocity))
+    return result
+
+
+def touching(scene: Scene) -> list[Pair]:
+    """The pairs of materials that can touch in this scene, ordered; a pair without values is an InvalidScene."""
+    count = [0] * len(scene.materials)
+    for particle in scene.particles:
+        count[particle.material] += 1
+    used = [index for index, number_of in enumerate(count) if number_of]
+    wanted = {(i, j) for i in used for j in used if i < j or (i == j and count[i] > 1)}
+    wanted |= {(min(i, body.material), max(i, body.material)) for i in used for body in scene.bodies}
+    result: list[Pair] = []
+    for i, j in sorted(wanted):
+        pair = scene.pair(i, j)
+        if pair is None:
+            raise InvalidScene(f"pairs: no values for {scene.materials[i].name} with {scene.materials[j].name}")
+        if pair.damping_ratio < 0 or not pair.effective_young > 0:
+            raise InvalidScene(f"{pair_key(scene, pair)}: damping_ratio >= 0 and effective_young > 0 are allowed")
+        result.append(replace(pair, between=(i, j)))
+    return result
+
+
+def pair_key(scene: Scene, pair: Pair) -> str:
+    """`pairs.A+B`, the name of a pair in translations and messages."""
+    return "pairs." + "+".join(scene.materials[index].name for index in pair.between)
+
+
+def stiffness_of(scene: Scene, material: int) -> tuple[float, float]:
+    """Young's modulus [Pa] and Poisson's ratio [-] to type for a material; a rigid one has 1/E = 0."""
+    entry = scene.materials[material]
+    if entry.rigid:
+        return RIGID_YOUNG, 0.0
+    if entry.young is None or entry.poisson is None:
+        raise InvalidScene(f"material {entry.name} is not rigid and lacks young or poisson")
+    return entry.young, entry.poisson
+
+
+def check_effective_young(scene: Scene, pair: Pair, code: str) -> None:
+    """Raises NotComparable where a code that forms E* from its materials would not get the E* of the scene."""
+    compliance = 0.0
+    for index in pair.between:
+        young, poisson = stiffness_of(scene, index)
+        compliance += (1.0 - poisson**2) / young
+    if abs(pair.effective_young * compliance - 1.0) > SAME:
+        raise NotComparable(
+            f"{code} forms E* = {number(1.0 / compliance)} Pa from the two materials of {pair_key(scene, pair)}, "
+            f"the scene states {number(pair.effective_young)} Pa"
+        )
+
+
+def damped(scene: Scene) -> bool:
+    """Whether any contact that can happen in the scene has a dashpot."""
+    return any(pair.damping_ratio > 0 for pair in touching(scene))
+
+
+def resolved_cut(scene: Scene, default: str) -> str:
+    """`on` or `off`: what the scene says, or what the code does when nothing is said."""
+    return default if scene.model.normal.force_cut == "default" else scene.model.normal.force_cut
+
+
+def mirrored(scene: Scene, cut: str, plane_radius_factor: float | None, start: str) -> Scene:
+    """The scene with the cut at zero resolved and the engine options of a mirror."""
+    model = Model(replace(scene.model.normal, force_cut=cut))
+    return replace(scene, model=model, mirror=Mirror(plane_radius_factor, start))
+
+
+def gravity(scene: Scene) -> tuple[float, Vector]:
+    """Magnitude [m/s2] and direction [-] of gravity, exact along an axis; downwards where there is none."""
+    x, y, z = scene.gravity
+    size = math.hypot(x, y, z) if sum(g != 0.0 for g in scene.gravity) > 1 else abs(x + y + z)
+    return (size, (x / size, y / size, z / size)) if size > 0 else (0.0, (0.0, 0.0, -1.0))
+
+
+def shared_rows(scene: Scene, time_step_key: str, gravity: tuple[str, str, str]) -> list[Row]:
+    """Rows that every code has: time step, and gravity with the key, value and formula of the code."""
+    step = number(scene.time_step)
+    return [
+        Row("time_step", step, time_step_key, step, "s", "as stated"),
+        Row("gravity", numbers(scene.gravity), gravity[0], gravity[1], "m/s2", gravity[2]),
+    ]

@@ -1,0 +1,202 @@
+"""A campaign: the runs of some cases, kept in a folder, compared and reported."""
+
+from __future__ import annotations
+
+import json
+import platform
+import sys
+import time
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from datetime import datetime, timezone
+from pathlib import Path
+
+from cross_check import engine, report, runs
+from cross_check.adapters import ADAPTERS
+from cross_check.adapters.interface import Deck
+from cross_check.cache import Cache
+from cross_check.compare.checks import compare
+from cross_check.compare.differences import known
+from cross_check.compare.expectations import expect, rules
+from cross_check.compare.outcome import Outcome
+from cross_check.compare.verdicts import Comparison
+from cross_check.curves import curves, sweeps
+from cross_check.engine import Case, CaseError, load_case
+from cross_check.record import RecordError, read
+from cross_check.report.campaign import Campaign, CaseInfo, SourceRun
+from cross_check.scene import Scene
+
+INDEX = "campaign.json"
+SCHEMA = 1
+
+
+@dataclass(frozen=True)
+class Finished:
+    """Cases with their outcomes, and when and how they ran."""
+
+    suite: str
+    cases: list[Case]
+    results: runs.Results
+    codes: tuple[str, ...]
+    started: str
+    duration: float
+
+
+def run(suite: str, cases: list[Case], options: runs.Options, work: Path, progress: runs.Progress) -> Finished:
+    """Runs the cases. Raises CaseError."""
+    started, clock = datetime.now(timezone.utc).isoformat(timespec="seconds"), time.monotonic()
+    results = runs.execute(cases, options, Cache(), work, progress)
+    return Finished(suite, cases, results, options.codes, started, time.monotonic() - clock)
+
+
+def comparisons(finished: Finished) -> list[Comparison]:
+    """All comparisons of all gates, with their expected verdicts."""
+    found: list[Comparison] = []
+    for case in finished.cases:
+        for variant in case.variants:
+            outcomes = finished.results[variant.scenes[0].name]
+            for gate in case.gates:
+                found += compare(variant.scenes[0], gate, outcomes, finished.codes)
+    complete = finished.codes == tuple(ADAPTERS)
+    return expect(found, rules(), {case.name for case in finished.cases}, complete)
+
+
+def write(finished: Finished, folder: Path) -> tuple[Path, list[Comparison]]:
+    """Writes verdicts, JUnit and the report into `folder`; returns the page and the comparisons."""
+    verdicts = comparisons(finished)
+    outcomes = [outcome for group in finished.results.values() for outcome in group.values()]
+    page = report.write(
+        folder,
+        Campaign(
+            suite=finished.suite,
+            started=finished.started,
+            duration=finished.duration,
+            comparisons=verdicts,
+            cases=[_info(case) for case in finished.cases],
+            runs=[_provenance(outcome) for outcome in outcomes if outcome.scene.refinement == 0],
+            translations={
+                f"{outcome.scene.name}|{outcome.source}": (deck.files[deck.main], deck.translation)
+                for outcome in outcomes
+                if (deck := outcome.deck) is not None
+            },
+            curves=[drawn for name, group in finished.results.items() for drawn in curves(name, group, finished.codes)],
+            sweeps=[plot for case in finished.cases for plot in sweeps(case, finished.results, finished.codes)],
+            environment=environment(),
+            left_out=[],
+            known_differences={name: str(entry["explanation"]).strip() for name, entry in known().items()},
+        ),
+    )
+    return page, verdicts
+
+
+def _info(case: Case) -> CaseInfo:
+    observables = list(dict.fromkeys(gate.quantity for gate in case.gates))
+    return CaseInfo(case.name, case.question, case.level, case.source, observables)
+
+
+def _provenance(outcome: Outcome) -> SourceRun:
+    scene, record = outcome.scene, outcome.record
+    if record is None:
+        return SourceRun(
+            scene.name, outcome.source, "", "", "", outcome.origin, outcome.deck.hash if outcome.deck else "", "", 0.0,
+            scene.steps, scene.time_step, outcome.verdict,
+        )  # fmt: skip
+    header = record.header
+    return SourceRun(
+        scene.name, outcome.source, header.code.name, header.code.version, header.code.package, outcome.origin,
+        header.deck_hash, header.machine, header.wall_time, header.steps, header.time_step, outcome.note,
+    )  # fmt: skip
+
+
+def environment() -> list[tuple[str, str]]:
+    """Which programs and which machine: name and version."""
+    found = [("machine", f"{platform.system()} {platform.machine()}"), ("python", sys.version.split()[0])]
+    found.append(("native engine", f"{engine.version()} (build {engine.build()[:12]})"))
+    for name, adapter in ADAPTERS.items():
+        code = adapter.installed()
+        found.append((name, "not installed" if code is None else f"{code.version} ({code.package})"))
+    return found
+
+
+def keep(finished: Finished, folder: Path) -> None:
+    """Keeps records, decks and an index in `folder`, so that `compare` and `report` need nothing else."""
+    entries: list[dict[str, object]] = []
+    for name, outcomes in finished.results.items():
+        for (source, refinement), outcome in outcomes.items():
+            place = Path("runs") / name / f"{source}-{refinement}"
+            if outcome.record is not None:
+                outcome.record.write(folder / place, compress=False)
+            if outcome.deck is not None:
+                write_deck(outcome.deck, folder / place)
+            entries.append(
+                {
+                    "scene": name,
+                    "source": source,
+                    "refinement": refinement,
+                    "folder": str(place) if outcome.record is not None else None,
+                    "verdict": outcome.verdict,
+                    "origin": outcome.origin,
+                }
+            )
+    index = {
+        "schema": SCHEMA,
+        "suite": finished.suite,
+        "cases": [str(case.path.resolve()) for case in finished.cases],
+        "codes": finished.codes,
+        "started": finished.started,
+        "duration": finished.duration,
+        "outcomes": entries,
+    }
+    (folder / INDEX).write_text(json.dumps(index, indent=1) + "\n")
+
+
+def load(folder: Path) -> Finished:
+    """The campaign that was kept in `folder`. Raises CaseError or RecordError."""
+    path = folder / INDEX
+    try:
+        index = json.loads(path.read_text())
+    except (OSError, ValueError) as error:
+        raise RecordError(f"{path}: not a kept campaign ({error})") from error
+    if index.get("schema") != SCHEMA:
+        raise RecordError(f"{path}: schema {index.get('schema')!r}, this version reads schema {SCHEMA}")
+    cases = [load_case(Path(case)) for case in index["cases"]]
+    scenes = {
+        (variant.scenes[0].name, scene.refinement): scene
+        for case in cases
+        for variant in case.variants
+        for scene in variant.scenes
+    }
+    results: runs.Results = {variant.scenes[0].name: {} for case in cases for variant in case.variants}
+    for entry in index["outcomes"]:
+        name, source, refinement = entry["scene"], entry["source"], int(entry["refinement"])
+        scene = scenes.get((name, refinement))
+        if scene is None:
+            raise CaseError(f"{path}: the case no longer has the scene {name} (refinement {refinement})")
+        results[name][source, refinement] = _reload(entry, source, scene, folder)
+    return Finished(index["suite"], cases, results, tuple(index["codes"]), index["started"], float(index["duration"]))
+
+
+def _reload(entry: dict[str, str | None], source: str, scene: Scene, folder: Path) -> Outcome:
+    adapter = ADAPTERS.get(source)
+    deck = adapter.deck(scene) if adapter is not None and entry["folder"] is not None else None
+    for code, other in ADAPTERS.items():
+        if source == f"native[{code}]" and entry["folder"] is not None:
+            scene = other.mirror(scene)
+    record = None if entry["folder"] is None else read(folder / entry["folder"])
+    return Outcome(source, scene, record, entry["verdict"] or "", entry["origin"] or "", deck)
+
+
+def write_deck(deck: Deck, folder: Path) -> None:
+    """Writes the files of a deck and `translation.json` into `folder`."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in deck.files.items():
+        (folder / name).write_text(text)
+    rows = [asdict(row) for row in deck.translation]
+    sheet = {"code": deck.code, "scene": deck.scene.name, "hash": deck.hash, "main": deck.main, "rows": rows}
+    (folder / "translation.json").write_text(json.dumps(sheet, indent=1) + "\n")
+
+
+
+def unexpected(verdicts: Iterable[Comparison]) -> list[Comparison]:
+    """The comparisons whose verdict is not the expected one."""
+    return [item for item in verdicts if not item.as_expected]

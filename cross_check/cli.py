@@ -1,0 +1,204 @@
+"""The command `cross-check`."""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NoReturn
+
+import click
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from cross_check import campaign, doctor, recording, runs, suites
+from cross_check.adapters import ADAPTERS
+from cross_check.adapters.interface import InvalidScene, NotComparable
+from cross_check.compare.checks import UnknownQuantity
+from cross_check.compare.expectations import ExpectationError
+from cross_check.engine import CaseError, load_case
+from cross_check.record import RecordError
+
+AS_EXPECTED, UNEXPECTED, BAD_INPUT = 0, 1, 2
+
+
+def _fail(message: object) -> NoReturn:
+    click.echo(f"error: {message}", err=True)
+    sys.exit(BAD_INPUT)
+
+
+@contextmanager
+def _refusing() -> Iterator[None]:
+    """Turns every foreseen error into one line and the exit code of bad input."""
+    try:
+        yield
+    except (CaseError, RecordError, UnknownQuantity, ExpectationError, InvalidScene, OSError) as error:
+        _fail(error)
+
+
+@click.group()
+@click.version_option(package_name="crossgrain")
+def main() -> None:
+    """States a DEM case once, runs it in several codes, and says where they differ and why."""
+
+
+@main.command("list")
+def list_() -> None:
+    """Lists suites and cases."""
+    with _refusing():
+        cases = suites.every_case()
+    table = [
+        {
+            "case": case.name,
+            "level": case.level,
+            "suites": case.suites,
+            "variants": len(case.variants),
+            "question": case.question,
+        }
+        for case in cases
+    ]
+    if not sys.stdout.isatty():
+        click.echo(json.dumps({"suites": suites.SUITES, "cases": table}, indent=1))
+        return
+    for case in cases:
+        click.echo(f"{case.name:22} {case.level}  {len(case.variants):3} variants  {', '.join(case.suites)}")
+        click.echo(f"{'':22} {case.question}")
+
+
+@main.command("doctor")
+def doctor_() -> None:
+    """Tells which codes and parts are present, what is missing and how to get it."""
+    found = doctor.examine()
+    if not sys.stdout.isatty():
+        click.echo(json.dumps([part.to_dict() for part in found], indent=1))
+        return
+    for part in found:
+        click.echo(f"{'ok     ' if part.present else 'missing'} {part.name:12} {part.version}")
+        if part.advice:
+            click.echo(f"{'':21}{part.advice}")
+
+
+@main.command("deck")
+@click.argument("case")
+@click.option("--code", type=click.Choice(list(ADAPTERS)), required=True, help="Code to write the deck for.")
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder of the deck.")
+@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Replaces a value of the case.")
+def deck_(case: str, code: str, out: Path, overrides: tuple[str, ...]) -> None:
+    """Writes the input deck of CASE (a name or a file) and translation.json, one folder per variant."""
+    with _refusing():
+        _, cases = suites.select(case)
+        if overrides:
+            cases = [load_case(item.path, list(overrides)) for item in cases]
+        written, reasons = 0, list[str]()
+        for variant in (variant for item in cases for variant in item.variants):
+            scene = variant.scenes[0]
+            try:
+                deck = ADAPTERS[code].deck(scene)
+            except NotComparable as reason:
+                reasons.append(f"{scene.name}: not-comparable({reason})")
+                continue
+            campaign.write_deck(deck, out / variant.name)
+            written += 1
+    for reason in reasons:
+        click.echo(reason, err=True)
+    if written == 0:
+        _fail(f"{code} has no form for {case}")
+    click.echo(f"{written} decks in {out}")
+
+
+@main.command("run")
+@click.argument("what", metavar="CASE|SUITE")
+@click.option("--codes", default=",".join(ADAPTERS), show_default=True, help="Codes to run, joined by commas.")
+@click.option("--jobs", type=click.IntRange(min=1), default=None, help="Runs at a time; the number of cores if absent.")
+@click.option("--live", is_flag=True, help="Makes every run now: neither the cache nor recorded runs are used.")
+@click.option("--any-version", is_flag=True, help="Runs versions for which the translation is not proved, too.")
+@click.option("--time-limit", type=float, default=300.0, show_default=True, help="Seconds per deck.")
+@click.option("--out", type=click.Path(path_type=Path), default=Path("out"), show_default=True, help="Output folder.")
+def run_(  # noqa: PLR0913
+    what: str, codes: str, jobs: int | None, live: bool, any_version: bool, time_limit: float, out: Path
+) -> None:
+    """Runs a case or a suite natively and in every code, compares, and reports."""
+    chosen = tuple(code.strip() for code in codes.split(",") if code.strip())
+    unknown = [code for code in chosen if code not in ADAPTERS]
+    if unknown:
+        _fail(f"--codes {codes}: no such code {', '.join(unknown)} (known: {', '.join(ADAPTERS)})")
+    options = runs.Options(codes=chosen, live=live, any_version=any_version, time_limit=time_limit)
+    if jobs is not None:
+        options = runs.Options(chosen, live, any_version, jobs, time_limit)
+    with _refusing():
+        suite, cases = suites.select(what)
+        out.mkdir(parents=True, exist_ok=True)
+        with _progress(runs.count(cases, options)) as progress, tempfile.TemporaryDirectory(prefix="crossgrain-") as work:
+            finished = campaign.run(suite, cases, options, Path(work), progress)
+        campaign.keep(finished, out)
+        _conclude(finished, out)
+
+
+@main.command("compare")
+@click.argument("folders", nargs=-1, required=True, type=click.Path(path_type=Path))
+def compare_(folders: tuple[Path, ...]) -> None:
+    """Compares the records of kept campaigns anew and writes their reports."""
+    with _refusing():
+        for folder in folders:
+            finished = campaign.load(folder)
+            if folder == folders[-1]:
+                _conclude(finished, folder)
+            else:
+                campaign.write(finished, folder)
+
+
+@main.command("report")
+@click.argument("folder", type=click.Path(path_type=Path))
+def report_(folder: Path) -> None:
+    """Writes the report of a kept campaign anew."""
+    with _refusing():
+        page, _ = campaign.write(campaign.load(folder), folder)
+    click.echo(page)
+
+
+@main.command("record")
+@click.argument("what", metavar="CASE|SUITE", default="standard")
+def record_(what: str) -> None:
+    """Refreshes reference/recorded/ from the installed codes, as a diff to review."""
+    with _refusing():
+        _, cases = suites.select(what)
+        with _progress(runs.count(cases, runs.Options())) as progress:
+            stored, removed = recording.refresh(cases, progress)
+    click.echo(f"{stored} records stored, {removed} of other decks removed")
+
+
+@contextmanager
+def _progress(total: int) -> Iterator[runs.Progress]:
+    """A bar on a terminal, one JSON line per tenth of the runs elsewhere."""
+    if sys.stderr.isatty():
+        columns = (TextColumn("{task.description:18}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+        with Progress(*columns, console=Console(stderr=True)) as bar:
+            task = bar.add_task("runs", total=total)
+            yield lambda source, done: bar.update(task, advance=done, description=source)
+        return
+    finished = 0
+
+    def tell(source: str, done: int) -> None:
+        nonlocal finished
+        before, finished = finished, finished + done
+        if before * 10 // max(total, 1) != finished * 10 // max(total, 1):
+            click.echo(json.dumps({"source": source, "runs": finished, "of": total}), err=True)
+
+    yield tell
+
+
+def _conclude(finished: campaign.Finished, out: Path) -> NoReturn:
+    """Reports, says the result in one line, and leaves with the exit code of the contract."""
+    page, verdicts = campaign.write(finished, out)
+    wrong = campaign.unexpected(verdicts)
+    for item in wrong:
+        click.echo(
+            f"{item.case}: {item.quantity}, {item.left.source} vs {item.right.source}: "
+            f"{item.verdict}, expected {item.expected}",
+            err=True,
+        )
+    click.echo(f"{len(verdicts)} comparisons, {len(wrong)} not as expected; report: {page}")
+    sys.exit(UNEXPECTED if wrong else AS_EXPECTED)

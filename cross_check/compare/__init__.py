@@ -1,0 +1,1 @@
+"""Comparison: pure functions of scenes and records."""

@@ -1,0 +1,104 @@
+"""Expected verdicts: every comparison has one, and green is never the default."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass, fields, replace
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from cross_check import PACKAGE
+from cross_check.compare.verdicts import DIFFER, Comparison, Side, not_run
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+
+class ExpectationError(Exception):
+    """A table of expected verdicts that cannot be read."""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Comparisons that match every given pattern (`*` and `?`) are expected to end in `verdict`.
+
+    `count` is the number of comparisons that the rule must cover: one that vanishes is as wrong as one that turns red.
+    """
+
+    case: str
+    verdict: str
+    count: int
+    check: str = "*"
+    quantity: str = "*"
+    left: str = "*"
+    right: str = "*"
+
+    def matches(self, item: Comparison) -> bool:
+        """Whether the rule speaks of this comparison."""
+        pairs = (
+            (self.case, item.case),
+            (self.check, item.check),
+            (self.quantity, item.quantity),
+            (self.left, item.left.source),
+            (self.right, item.right.source),
+        )
+        # Brackets of `native[x]` are letters here, not character sets.
+        return all(fnmatchcase(value, pattern.replace("[", "[[]")) for pattern, value in pairs)
+
+
+def rules(path: Path = PACKAGE / "expected_verdicts.toml") -> list[Rule]:
+    """The rules of a table, in order. Raises ExpectationError."""
+    try:
+        entries = tomllib.loads(path.read_text())["expect"]
+        return [Rule(**entry) for entry in entries]
+    except (OSError, KeyError, TypeError, tomllib.TOMLDecodeError) as error:
+        names = ", ".join(field.name for field in fields(Rule))
+        raise ExpectationError(f"{path}: {error} (a rule has the keys {names})") from error
+
+
+def expect(comparisons: Iterable[Comparison], table: list[Rule], cases: set[str], complete: bool) -> list[Comparison]:
+    """The comparisons with their expected verdicts; the first rule that matches speaks.
+
+    `cases` are the names of the cases that ran. A case for which the table holds no rule (a user's own) is expected to
+    agree. With `complete`, a rule that covers another number of comparisons than its count adds a failing comparison.
+    """
+    governed = {case for case in cases if any(_case(rule) == case for rule in table)}
+    covered = [0] * len(table)
+    judged: list[Comparison] = []
+    for item in comparisons:
+        index = next((i for i, rule in enumerate(table) if rule.matches(item)), None)
+        if index is not None:
+            covered[index] += 1
+            judged.append(replace(item, expected=table[index].verdict))
+        elif item.case.partition("/")[0] in governed:
+            judged.append(replace(item, expected="(no rule in expected_verdicts.toml)"))
+        else:
+            judged.append(replace(item, expected="agree"))
+    if complete:
+        judged += [_miscounted(rule, n) for rule, n in zip(table, covered, strict=True) if _case(rule) in cases and n != rule.count]
+    return judged
+
+
+def _case(rule: Rule) -> str:
+    return rule.case.partition("/")[0].rstrip("*") or rule.case
+
+
+def _miscounted(rule: Rule, count: int) -> Comparison:
+    return Comparison(
+        case=_case(rule),
+        level="-",
+        check="expectation",
+        quantity="number of comparisons",
+        unit="-",
+        left=Side("comparisons", float(count), 0.0),
+        right=Side("expected_verdicts.toml", float(rule.count), 0.0),
+        discrepancy=abs(float(count - rule.count)),
+        scale="absolute",
+        bound=0.0,
+        bound_source=f"rule for {rule.case}, {rule.check}, {rule.quantity}, {rule.left} vs {rule.right}: {rule.verdict}",
+        verdict=DIFFER if count else not_run("no comparison matches the rule"),
+        expected="agree",
+    )

@@ -1,0 +1,37 @@
+"""What became of one source of one scene: a record, or the reason why there is none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cross_check.adapters.interface import Deck
+from cross_check.record import RunRecord
+from cross_check.scene import Scene
+
+NATIVE = "native"
+
+
+def mirror_name(code: str) -> str:
+    """The source name of the mirror of a code."""
+    return f"{NATIVE}[{code}]"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One source of one scene.
+
+    `verdict` is empty where there is a record, else `not-comparable(...)` or `not-run(...)`. `origin` is `live`,
+    `cache`, `recorded` or `not run`. `scene` is the scene that this source ran: a mirror's differs in its options.
+    """
+
+    source: str
+    scene: Scene
+    record: RunRecord | None
+    verdict: str = ""
+    origin: str = "live"
+    deck: Deck | None = None
+    note: str = ""
+
+
+Outcomes = dict[tuple[str, int], Outcome]
+"""Outcomes of one variant by source and refinement."""

@@ -1,0 +1,152 @@
+"""Observables of a record: pure functions, the same for every code.
+
+A scalar is a number with a unit; a series has shape (T, N, 3) and belongs to the sampled steps. Events between samples
+(onset, end, peak) are interpolated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from cross_check.record import Array, RunRecord
+from cross_check.scene import Scene
+
+
+class Undefined(Exception):
+    """The record does not define the quantity; the message says why."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A named observable with its unit; exactly one of `scalar` and `series` is given."""
+
+    name: str
+    unit: str
+    scalar: Callable[[Scene, RunRecord], float] | None = None
+    series: Callable[[Scene, RunRecord], Array] | None = None
+
+
+@dataclass(frozen=True)
+class Impact:
+    """The contact of the first particle with the second, or with the first body, at the sampled times.
+
+    `overlap` [m], `speed` [m/s] (positive when approaching) and `force` [N] (positive when it repels), shape (T,).
+    """
+
+    time: Array
+    overlap: Array
+    speed: Array
+    force: Array
+
+
+def impact(scene: Scene, record: RunRecord) -> Impact:
+    """Normal kinematics and force of the impact of a two-body scene. Raises Undefined for other scenes."""
+    if len(scene.particles) + len(scene.bodies) != 2:
+        raise Undefined("the scene is not an impact of two bodies")
+    position, velocity = record["position"], record.synchronized_velocity()
+    radius = scene.particles[0].radius
+    if len(scene.particles) == 2:
+        branch = position[:, 0] - position[:, 1]
+        distance = np.linalg.norm(branch, axis=1)
+        normal = branch / distance[:, None]
+        overlap = radius + scene.particles[1].radius - distance
+        relative = velocity[:, 0] - velocity[:, 1]
+    else:
+        body = scene.bodies[0]
+        wall = np.array(body.motion.velocity or (0.0, 0.0, 0.0))
+        point = np.array(body.shape.point) + wall * record["time"][:, None]
+        normal = np.broadcast_to(np.array(body.shape.normal), position[:, 0].shape)
+        overlap = radius - np.einsum("ij,ij->i", position[:, 0] - point, normal)
+        relative = velocity[:, 0] - wall
+    return Impact(
+        record["time"],
+        overlap,
+        -np.einsum("ij,ij->i", relative, normal),
+        np.einsum("ij,ij->i", record["force"][:, 0], normal),
+    )
+
+
+def _touching(found: Impact) -> tuple[int, int]:
+    """First and last sample in contact; both neighbours are free."""
+    inside = np.flatnonzero(found.overlap > 0.0)
+    if len(inside) == 0:
+        raise Undefined("the bodies never touch")
+    first, last = int(inside[0]), int(inside[-1])
+    if first == 0:
+        raise Undefined("the bodies touch at the first sample")
+    if last == len(found.overlap) - 1:
+        raise Undefined("the bodies still touch at the last sample")
+    return first, last
+
+
+def peak_force(scene: Scene, record: RunRecord) -> float:
+    """Largest normal force [N], on the parabola through the largest sample and its neighbours."""
+    found = impact(scene, record)
+    top = int(np.argmax(found.force))
+    if top in (0, len(found.force) - 1):
+        raise Undefined("the largest force is at the first or last sample")
+    time = found.time[top - 1 : top + 2] - found.time[top]
+    c, b, a = np.polynomial.polynomial.polyfit(time / time[2], found.force[top - 1 : top + 2], 2)
+    return float(c - b * b / (4.0 * a)) if a < 0.0 else float(found.force[top])
+
+
+def contact_duration(scene: Scene, record: RunRecord) -> float:
+    """Time from first touch to separation [s]: the flight is free on both sides, so both instants are exact."""
+    found = impact(scene, record)
+    first, last = _touching(found)
+    begin, end = first - 1, last + 1
+    onset = found.time[begin] - found.overlap[begin] / found.speed[begin]
+    separation = found.time[end] - found.overlap[end] / found.speed[end]
+    return float(separation - onset)
+
+
+def restitution(scene: Scene, record: RunRecord) -> float:
+    """Rebound over impact speed [-] of bodies that separated."""
+    found = impact(scene, record)
+    _touching(found)
+    return float(-found.speed[-1] / found.speed[0])
+
+
+def outgoing_speed_ratio(scene: Scene, record: RunRecord) -> float:
+    """Relative normal speed at the end over that at the start [-], whether or not the bodies separated."""
+    found = impact(scene, record)
+    return float(abs(found.speed[-1]) / abs(found.speed[0]))
+
+
+def energy_residual(scene: Scene, record: RunRecord) -> float:
+    """Largest residual of the energy balance during contact over the energy that entered the contact [-]."""
+    if "energy_kinetic" not in record.columns:
+        raise Undefined("the record holds no energy ledger")
+    stored = record["energy_kinetic"] + record["energy_elastic"] + record["energy_gravity"]
+    balance = stored + record["energy_viscous"] - record["energy_body_work"]
+    entered = float(record["energy_entered"][-1])
+    if entered == 0.0:
+        raise Undefined("no energy entered a contact")
+    return float(np.max(np.abs(balance - balance[0])) / entered)
+
+
+def force_history(scene: Scene, record: RunRecord) -> Array:
+    """Contact force on every particle, shape (T, N, 3) [N]."""
+    return record["force"]
+
+
+def position_history(scene: Scene, record: RunRecord) -> Array:
+    """Centres, shape (T, N, 3) [m]."""
+    return record["position"]
+
+
+QUANTITIES = {
+    quantity.name: quantity
+    for quantity in (
+        Quantity("peak_force", "N", scalar=peak_force),
+        Quantity("contact_duration", "s", scalar=contact_duration),
+        Quantity("restitution", "-", scalar=restitution),
+        Quantity("outgoing_speed_ratio", "-", scalar=outgoing_speed_ratio),
+        Quantity("energy_residual", "-", scalar=energy_residual),
+        Quantity("force_history", "N", series=force_history),
+        Quantity("position_history", "m", series=position_history),
+    )
+}

@@ -1,0 +1,139 @@
+"""The native engine as the harness uses it: cases read, scenes run."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import crossgrain
+
+from cross_check.record import RecordError, RunRecord, read
+from cross_check.scene import Scene, from_json
+
+#: Names a program to run scenes with, in place of the module: the planted faults of tests/mutants are such programs.
+PROGRAM_VARIABLE = "CROSSGRAIN_NATIVE"
+
+
+class CaseError(Exception):
+    """A case that cannot be read or run: the message names file, line, key, value and what is allowed."""
+
+
+@dataclass(frozen=True)
+class Gate:
+    """One comparison of one quantity, as the case states it (src/case/schema.rs)."""
+
+    quantity: str
+    check: str
+    reference: str | None
+    scale: str
+    bound: float
+    bound_source: str
+    order: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class Point:
+    """Where a variant stands on one axis of the sweep."""
+
+    axis: str
+    label: str
+    at: float | None
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A point of the sweep; `scenes` are its refinements, coarsest first."""
+
+    name: str
+    points: tuple[Point, ...]
+    scenes: tuple[Scene, ...]
+
+
+@dataclass(frozen=True)
+class Case:
+    """A case with its variants."""
+
+    path: Path
+    name: str
+    question: str
+    level: str
+    source: str
+    suites: tuple[str, ...]
+    gates: tuple[Gate, ...]
+    variants: tuple[Variant, ...]
+
+
+def _gate(raw: dict[str, Any]) -> Gate:
+    order = raw["order"]
+    return Gate(**(raw | {"order": None if order is None else (float(order[0]), float(order[1]))}))
+
+
+def load_case(path: Path, overrides: list[str] | None = None) -> Case:
+    """Reads, checks and expands a case file. Raises CaseError."""
+    try:
+        raw: dict[str, Any] = json.loads(crossgrain.load_case(path, overrides or []))
+    except ValueError as error:
+        raise CaseError(str(error)) from error
+    scenes: dict[str, list[Scene]] = {}
+    for item in raw["scenes"]:
+        scenes.setdefault(item["variant"], []).append(from_json(item))
+    variants = tuple(
+        Variant(item["name"], tuple(Point(**point) for point in item["points"]), tuple(scenes[item["name"]]))
+        for item in raw["variants"]
+    )
+    case = raw["case"]
+    return Case(
+        path=path,
+        name=case["name"],
+        question=case["question"],
+        level=case["level"],
+        source=case["source"],
+        suites=tuple(case["suites"]),
+        gates=tuple(_gate(gate) for gate in case["gates"]),
+        variants=variants,
+    )
+
+
+def version() -> str:
+    """Version of the native engine."""
+    return crossgrain.__version__
+
+
+@functools.cache
+def build() -> str:
+    """Hash of the engine's machine code: a rebuilt engine never meets runs of another one in the cache."""
+    program = os.environ.get(PROGRAM_VARIABLE)
+    path = Path(program) if program else next(Path(crossgrain.__file__).parent.glob("crossgrain*.so"))
+    return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
+
+
+def run(scene: Scene, folder: Path, threads: int = 1) -> RunRecord:
+    """Runs a scene and returns the record that it wrote into `folder`. Raises CaseError or RecordError."""
+    program = os.environ.get(PROGRAM_VARIABLE)
+    if program is None:
+        try:
+            crossgrain.run_scene(scene.to_json(), folder, threads)
+        except ValueError as error:
+            raise CaseError(str(error)) from error
+        return read(folder)
+    with tempfile.TemporaryDirectory() as scratch:
+        path = Path(scratch) / "scene.json"
+        path.write_text(scene.to_json())
+        command = [program, "run-scene", str(path), "--out", str(folder), "--threads", str(threads)]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=3600, check=False)  # noqa: S603
+    if done.returncode != 0:
+        raise RecordError(f"{scene.name}: {program} failed: {done.stderr.strip()}")
+    return read(folder)
+
+
+def main() -> None:
+    """The console script `crossgrain` of the wheel."""
+    sys.exit(crossgrain.main(sys.argv[1:]))

@@ -1,0 +1,157 @@
+"""The run record: one neutral, versioned form for the results of every code (docs/formats.md)."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+SCHEMA = 1
+UNITS = {
+    "step": "-",
+    "time": "s",
+    "position": "m",
+    "velocity": "m/s",
+    "angular_velocity": "rad/s",
+    "force": "N",
+    "torque": "N m",
+    "body_force": "N",
+    "energy_kinetic": "J",
+    "energy_elastic": "J",
+    "energy_gravity": "J",
+    "energy_viscous": "J",
+    "energy_body_work": "J",
+    "energy_entered": "J",
+}
+REQUIRED = ("step", "time", "position", "velocity", "angular_velocity", "force", "torque")
+
+
+class RecordError(Exception):
+    """A record that cannot be trusted: the message names the file, what is wrong and what is allowed."""
+
+
+@dataclass(frozen=True)
+class Code:
+    """Which program made a record: `name`, its own `version`, and the `package` that brought it."""
+
+    name: str
+    version: str
+    package: str
+
+
+@dataclass(frozen=True)
+class Header:
+    """What a record is a record of. Times in s, masses in kg, radii in m."""
+
+    source: str
+    case: str
+    variant: str
+    seed: int | None
+    refinement: int
+    code: Code
+    deck_hash: str
+    machine: str
+    wall_time: float
+    time_step: float
+    steps: int
+    velocity_time: str
+    contact_force: str
+    mass: list[float]
+    radius: list[float]
+    bodies: list[str]
+    gravity: list[float]
+    schema: int = SCHEMA
+    columns: dict[str, str] = field(default_factory=dict[str, str])
+
+
+@dataclass(frozen=True)
+class RunRecord:
+    """Header and columns of one run of one scene by one source. Shapes and units: docs/formats.md."""
+
+    header: Header
+    columns: dict[str, NDArray[Any]]
+
+    def __getitem__(self, name: str) -> Array:
+        return self.columns[name]
+
+    @property
+    def step(self) -> NDArray[np.int64]:
+        """Sampled steps, shape (T,) [-]."""
+        return self.columns["step"]
+
+    def synchronized_velocity(self) -> Array:
+        """Velocities at the times of the positions, shape (T, N, 3) [m/s].
+
+        A half-step record holds v(n + 1/2) = v(n) + a(n) dt / 2, which defines v(n); a is force over
+        mass plus gravity, because the force column holds no weight.
+        """
+        velocity = self.columns["velocity"]
+        if self.header.velocity_time == "synchronized":
+            return velocity
+        mass = np.asarray(self.header.mass)[None, :, None]
+        acceleration = self.columns["force"] / mass + np.asarray(self.header.gravity)
+        return velocity - 0.5 * self.header.time_step * acceleration
+
+    def check(self, where: str) -> None:
+        """Raises RecordError unless the record is complete, finite and of one shape."""
+        for name in REQUIRED:
+            if name not in self.columns:
+                raise RecordError(f"{where}: column {name} is missing")
+        samples, count = len(self.step), len(self.header.mass)
+        if samples == 0:
+            raise RecordError(f"{where}: the record holds no samples")
+        if int(self.step[-1]) != self.header.steps:
+            raise RecordError(f"{where}: the last sample is step {int(self.step[-1])}, the run has {self.header.steps} steps")
+        if np.any(np.diff(self.step) <= 0):
+            raise RecordError(f"{where}: steps do not increase")
+        for name, column in self.columns.items():
+            if name not in UNITS:
+                raise RecordError(f"{where}: unknown column {name} (known: {', '.join(UNITS)})")
+            if len(column) != samples:
+                raise RecordError(f"{where}: column {name} has {len(column)} samples, step has {samples}")
+            if not np.all(np.isfinite(column)):
+                bad = int(np.argwhere(~np.isfinite(column))[0][0])
+                raise RecordError(f"{where}: column {name} is not a finite number at step {int(self.step[bad])}")
+        for name in REQUIRED[2:]:
+            if self.columns[name].shape != (samples, count, 3):
+                raise RecordError(
+                    f"{where}: column {name} has shape {self.columns[name].shape}, expected {(samples, count, 3)}"
+                )
+
+    def write(self, folder: Path, *, compress: bool = True) -> None:
+        """Writes `record.json` and `columns.npz` into `folder`."""
+        folder.mkdir(parents=True, exist_ok=True)
+        save = np.savez_compressed if compress else np.savez
+        save(folder / "columns.npz", allow_pickle=False, **self.columns)
+        header = asdict(self.header) | {"columns": {name: UNITS[name] for name in self.columns}}
+        (folder / "record.json").write_text(json.dumps(header, indent=1, sort_keys=True) + "\n")
+
+
+def read(folder: Path) -> RunRecord:
+    """Reads and checks a record folder. Raises RecordError with the file and the reason."""
+    path = folder / "record.json"
+    try:
+        raw = json.loads(path.read_text())
+        if raw.get("schema") != SCHEMA:
+            raise RecordError(f"{path}: schema {raw.get('schema')!r}, this version reads schema {SCHEMA}")
+        header = Header(**(raw | {"code": Code(**raw["code"])}))
+        with np.load(folder / "columns.npz") as data:
+            columns = {name: data[name] for name in data.files}
+    except RecordError:
+        raise
+    except FileNotFoundError as error:
+        raise RecordError(f"{error.filename}: no such file") from error
+    except Exception as error:  # a truncated or foreign file raises many kinds of errors: one message for all
+        raise RecordError(f"{folder}: not a readable run record ({error})") from error
+    record = RunRecord(header, columns)
+    record.check(str(folder))
+    if not math.isfinite(header.time_step):
+        raise RecordError(f"{path}: time_step is not a finite number")
+    return record

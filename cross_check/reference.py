@@ -1,0 +1,75 @@
+"""Reference data: closed forms (`reference/analytic`) and recorded runs (`reference/recorded`)."""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cross_check import PACKAGE
+from cross_check.record import RecordError, RunRecord, read
+
+FOLDER = PACKAGE.parent / "reference"
+
+ClosedForm = Callable[..., Any]
+
+
+@functools.cache
+def closed_forms() -> dict[str, ClosedForm]:
+    """Every closed form by `module.name`: scalars take a scene, series a scene and steps."""
+    forms: dict[str, ClosedForm] = {}
+    for path in sorted((FOLDER / "analytic").glob("*.py")):
+        spec = importlib.util.spec_from_file_location(f"crossgrain_reference_{path.stem}", path)
+        if spec is None or spec.loader is None:
+            raise RecordError(f"{path}: not a module")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        for name, form in module.CLOSED_FORMS.items():
+            forms[f"{path.stem}.{name}"] = form
+    return forms
+
+
+def recorded(code: str, deck_hash: str, version: str | None) -> RunRecord | None:
+    """The recorded run of a deck, of the wanted version if one is given, or None."""
+    folder = FOLDER / "recorded" / code
+    if not folder.is_dir():
+        return None
+    for candidate in sorted(folder.iterdir(), reverse=True):
+        path = candidate / deck_hash
+        if (version is None or candidate.name == slug(version)) and (path / "record.json").is_file():
+            return read(path)
+    return None
+
+
+def slug(version: str) -> str:
+    """A version as a folder name."""
+    return "".join(c if c.isalnum() or c in ".-" else "-" for c in version)
+
+
+def thin(record: RunRecord, samples: int = 200) -> RunRecord:
+    """The record as it is stored: about `samples` samples, and all those that quantities are interpolated from.
+
+    Kept are the neighbours of the largest force of every particle and of every beginning and end of a contact, so that
+    peaks, durations and rebounds are those of the full record.
+    """
+    force = np.linalg.norm(record["force"], axis=2)
+    kept = set(range(0, len(record.step), max(1, len(record.step) // samples)))
+    marks = [int(index) for index in np.argmax(force, axis=0)]
+    marks += [int(index) for index in np.flatnonzero(np.diff((force > 0.0).any(axis=1).astype(int)))]
+    marks += [0, len(record.step) - 1]
+    for mark in marks:
+        kept.update(range(mark - 2, mark + 4))
+    chosen = np.array(sorted(index for index in kept if 0 <= index < len(record.step)))
+    return RunRecord(record.header, {name: column[chosen] for name, column in record.columns.items()})
+
+
+def store(record: RunRecord, code: str) -> Path:
+    """Writes a thinned record into `reference/recorded` and returns its folder."""
+    header = record.header
+    folder = FOLDER / "recorded" / code / slug(header.code.version) / header.deck_hash
+    thin(record).write(folder)
+    return folder

@@ -1,0 +1,125 @@
+"""Draws the figures of a campaign: vector files for papers and a slim form for the page."""
+
+# pyright: reportUnknownMemberType=false
+# matplotlib leaves the keywords of its methods untyped.
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from functools import cache
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+from cross_check.report import drawing, inline_svg, notation
+from cross_check.report.campaign import Campaign, Curve, CurveSet, SweepPlot, case_of
+from cross_check.report.drawing import Job
+from cross_check.report.palette import rank
+from cross_check.report.thinning import MOST_DIFFERENCES, thin
+
+STYLE = Path(__file__).with_name("style.mplstyle")
+WORKERS = 2
+FEW = 6  # up to here starting workers takes longer than drawing
+
+
+@dataclass(frozen=True)
+class Figured:
+    """A figure that has been drawn: `svg` is its inline form, `notes` say what the drawing cannot show."""
+
+    scene: str
+    title: str
+    name: str
+    svg: str
+    sweep: bool
+    notes: list[str]
+
+
+def draw_all(campaign: Campaign, folder: Path) -> list[Figured]:
+    """Draws every curve set and sweep into `folder` as svg and pdf, in two processes where that pays."""
+    folder.mkdir(parents=True, exist_ok=True)
+    if len(campaign.curves) + len(campaign.sweeps) > FEW:
+        context = multiprocessing.get_context("spawn")
+        try:
+            with ProcessPoolExecutor(WORKERS, mp_context=context) as pool:
+                return list(pool.map(draw, _jobs(campaign, folder), chunksize=2))
+        except BrokenProcessPool:
+            pass  # no second process to be had here (an interactive session, a small container): draw in this one
+    return [draw(job) for job in _jobs(campaign, folder)]
+
+
+def _jobs(campaign: Campaign, folder: Path) -> Iterator[Job]:
+    """The figures one by one, so that the first are drawn while the last are still thinned."""
+    taken: set[str] = set()
+
+    def stem(item: CurveSet | SweepPlot) -> Path:
+        base = name = notation.slug(f"{item.case} {item.title}")
+        count = 1
+        while name in taken:
+            count += 1
+            name = f"{base}-{count}"
+        taken.add(name)
+        return folder / name
+
+    for sweep in campaign.sweeps:
+        yield _sweep_job(sweep, stem(sweep))
+    for curves in campaign.curves:
+        yield _curves_job(curves, stem(curves))
+
+
+def _ordered(curves: list[Curve]) -> list[Curve]:
+    return sorted(curves, key=lambda curve: rank(curve.source))
+
+
+def _curves_job(item: CurveSet, stem: Path) -> Job:
+    return Job(
+        stem,
+        item.case,
+        item.title,
+        f"{item.x_label} [{item.x_unit}]",
+        f"{item.y_label} [{item.y_unit}]",
+        item.residual_label,
+        [thin(curve) for curve in _ordered(item.curves)],
+        [thin(curve, scale=item.residual_scale, absolute=True, limit=MOST_DIFFERENCES) for curve in item.residuals],
+        sweep=False,
+    )
+
+
+def _sweep_job(item: SweepPlot, stem: Path) -> Job:
+    return Job(
+        stem,
+        case_of(item.case),
+        item.title,
+        item.x_label,
+        item.y_label,
+        "|difference|",
+        [thin(curve) for curve in _ordered(item.points)],
+        [thin(curve, absolute=True, limit=MOST_DIFFERENCES) for curve in item.residuals],
+        sweep=True,
+    )
+
+
+@cache
+def _style() -> Any:  # the type of its keys changes with the version of matplotlib
+    return dict(mpl.rc_params_from_file(STYLE, use_default_template=False))
+
+
+def draw(job: Job) -> Figured:
+    """Draws one figure and writes its files; the same job gives the same bytes."""
+    with mpl.rc_context(_style()):
+        figure = drawing.figure(job)
+        text = StringIO()
+        blank = {"Date": None, "Creator": None, "Format": None, "Type": None}
+        figure.savefig(text, format="svg", metadata=blank)
+        blank = {"CreationDate": None, "Creator": None, "Producer": None}
+        figure.savefig(f"{job.stem}.pdf", format="pdf", metadata=blank)
+    svg = text.getvalue()
+    Path(f"{job.stem}.svg").write_text(svg, encoding="utf-8")
+    notes = [drawn.note for drawn in (*job.curves, *job.residuals) if drawn.note]
+    name = job.stem.name
+    return Figured(job.scene, job.title, name, inline_svg.slim(svg, name, job.title), job.sweep, notes)

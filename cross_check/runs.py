@@ -1,0 +1,173 @@
+"""Runs: every source of every scene of a campaign, from the cache, live, or recorded."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from cross_check import engine, reference
+from cross_check.adapters import ADAPTERS
+from cross_check.adapters.interface import Adapter, Deck, InvalidScene, NotComparable, RunFailed
+from cross_check.cache import Cache, code_key, native_key
+from cross_check.compare.outcome import NATIVE, Outcome, Outcomes, mirror_name
+from cross_check.compare.verdicts import not_comparable, not_run
+from cross_check.engine import Case, CaseError, Variant
+from cross_check.record import Code, RecordError, RunRecord
+from cross_check.scene import Scene
+
+Progress = Callable[[str, int], None]
+"""Told the name of a source and how many more of its runs are done."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How runs are made.
+
+    `live`: neither the cache nor recorded runs are used. `any_version`: codes of versions other than the proved ones
+    run too. `time_limit` [s] holds for each deck.
+    """
+
+    codes: tuple[str, ...] = tuple(ADAPTERS)
+    live: bool = False
+    any_version: bool = False
+    jobs: int = field(default_factory=lambda: os.cpu_count() or 1)
+    time_limit: float = 300.0
+
+
+@dataclass(frozen=True)
+class _Job:
+    variant: str
+    source: str
+    scene: Scene
+    deck: Deck | None = None
+
+
+Results = dict[str, Outcomes]
+"""Outcomes of every variant, by `case/variant`."""
+
+
+def count(cases: list[Case], options: Options) -> int:
+    """Number of runs that `execute` will report."""
+    per_scene = 1 + len(options.codes)
+    return sum(len(variant.scenes) * per_scene + len(options.codes) for case in cases for variant in case.variants)
+
+
+def execute(cases: list[Case], options: Options, cache: Cache, work: Path, progress: Progress) -> Results:
+    """Runs all sources of all scenes. Raises CaseError where a scene cannot be stated at all."""
+    results: Results = {}
+    native: list[_Job] = []
+    external: dict[str, list[_Job]] = {code: [] for code in options.codes}
+    for case in cases:
+        for variant in case.variants:
+            name = variant.scenes[0].name
+            results[name] = {}
+            native += [_Job(name, NATIVE, scene) for scene in variant.scenes]
+            for code in options.codes:
+                _plan(ADAPTERS[code], variant, results[name], native, external[code], progress)
+    with ThreadPoolExecutor(options.jobs) as pool:
+        for job, outcome in zip(native, pool.map(lambda job: _native(job, options, cache, work), native), strict=True):
+            results[job.variant][job.source, job.scene.refinement] = outcome
+            progress(job.source, 1)
+    for code, jobs in external.items():
+        for job, outcome in zip(jobs, _external(ADAPTERS[code], jobs, options, cache, work, progress), strict=True):
+            results[job.variant][job.source, 0] = outcome
+    return results
+
+
+def _plan(
+    adapter: Adapter, variant: Variant, outcomes: Outcomes, native: list[_Job], external: list[_Job], progress: Progress
+) -> None:
+    """Adds the runs of one code and of its mirror, or the outcomes that say why there are none."""
+    name, code, mirror = variant.scenes[0].name, adapter.name, mirror_name(adapter.name)
+    try:
+        deck = adapter.deck(variant.scenes[0])
+    except InvalidScene as error:
+        raise CaseError(f"{name}: {error}") from error
+    except NotComparable as reason:
+        verdict = not_comparable(str(reason))
+        for source, scenes in ((code, variant.scenes[:1]), (mirror, variant.scenes)):
+            for scene in scenes:
+                outcomes[source, scene.refinement] = Outcome(source, scene, None, verdict, "not run")
+                progress(source, 1)
+        return
+    external.append(_Job(name, code, variant.scenes[0], deck))
+    native += [_Job(name, mirror, adapter.mirror(scene)) for scene in variant.scenes]
+
+
+def _native(job: _Job, options: Options, cache: Cache, work: Path) -> Outcome:
+    key = native_key(job.scene)
+    if not options.live and (record := cache.get(key)) is not None:
+        return Outcome(job.source, job.scene, _labelled(record, job.source), origin="cache")
+    with tempfile.TemporaryDirectory(dir=work) as folder:
+        try:
+            record = engine.run(job.scene, Path(folder))
+        except (CaseError, RecordError) as error:
+            return Outcome(job.source, job.scene, None, not_run(str(error)), "not run")
+    cache.put(key, record)
+    return Outcome(job.source, job.scene, _labelled(record, job.source))
+
+
+def _labelled(record: RunRecord, source: str) -> RunRecord:
+    return replace(record, header=replace(record.header, source=source))
+
+
+def _external(
+    adapter: Adapter, jobs: list[_Job], options: Options, cache: Cache, work: Path, progress: Progress
+) -> list[Outcome]:
+    """Outcomes of the decks of one code, in order."""
+    code = adapter.installed()
+    if code is not None and code.version not in adapter.proved_versions and not options.any_version:
+        proved = ", ".join(adapter.proved_versions)
+        reason = not_comparable(f"{code.name} {code.version} is installed, the translation is proved for {proved}")
+        progress(adapter.name, len(jobs))
+        return [Outcome(job.source, job.scene, None, reason, "not run", job.deck) for job in jobs]
+    outcomes: dict[int, Outcome] = {}
+    for index, job in enumerate(jobs):
+        stored = _stored(job, code, options, cache)
+        if stored is not None:
+            outcomes[index] = stored
+            progress(adapter.name, 1)
+    waiting = [index for index in range(len(jobs)) if index not in outcomes]
+    if code is None:
+        reason = not_run(f"{adapter.name} is not installed and there is no recorded run of this deck")
+        for index in waiting:
+            outcomes[index] = Outcome(adapter.name, jobs[index].scene, None, reason, "not run", jobs[index].deck)
+            progress(adapter.name, 1)
+        waiting = []
+    shares = [waiting[first :: options.jobs] for first in range(options.jobs)]
+
+    def run(share: tuple[int, list[int]]) -> None:
+        number, indices = share
+        decks = [deck for index in indices if (deck := jobs[index].deck) is not None]
+        found = adapter.run(decks, work / f"{adapter.name}-{number}", options.time_limit)
+        for index, result in zip(indices, found, strict=True):
+            outcomes[index] = _kept(jobs[index], result, code, cache)
+            progress(adapter.name, 1)
+
+    with ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(run, [(number, share) for number, share in enumerate(shares) if share]))
+    return [outcomes[index] for index in range(len(jobs))]
+
+
+def _stored(job: _Job, code: Code | None, options: Options, cache: Cache) -> Outcome | None:
+    """The record of an earlier run of the same deck, or None."""
+    if job.deck is None or options.live:
+        return None
+    if code is not None:
+        record = cache.get(code_key(job.deck, code))
+        return None if record is None else Outcome(job.source, job.scene, record, origin="cache", deck=job.deck)
+    record = reference.recorded(job.source, job.deck.hash, None)
+    return None if record is None else Outcome(job.source, job.scene, record, origin="recorded", deck=job.deck)
+
+
+def _kept(job: _Job, result: RunRecord | RunFailed, code: Code | None, cache: Cache) -> Outcome:
+    """The outcome of a finished run; its record goes into the cache."""
+    if isinstance(result, RunFailed):
+        return Outcome(job.source, job.scene, None, not_run(str(result)), "not run", job.deck)
+    if code is not None and job.deck is not None:
+        cache.put(code_key(job.deck, code), result)
+    return Outcome(job.source, job.scene, result, deck=job.deck)

@@ -1,0 +1,239 @@
+//! Bodies and the protocol of a case: how walls move and what happens in each stage.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::model::PairValues;
+use super::quantity::{
+    AngularSpeed, Dashpot, Duration, Force, Frequency, Length, Mass, Number, Pressure, Speed, Stiffness, Temperature,
+};
+
+/// A wall.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name.
+    pub name: String,
+    /// Name of the material.
+    pub material: String,
+    /// Shape.
+    pub shape: Shape,
+    /// Degrees of freedom.
+    pub motion: Motion,
+    /// Temperature [K], for heated beds.
+    pub temperature: Option<Temperature>,
+}
+
+/// Shape of a wall.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    /// A plane without end.
+    Plane {
+        /// A point of the plane [m].
+        point: [Length; 3],
+        /// Normal into the region of the particles; any length but zero [-].
+        normal: [Number; 3],
+    },
+    /// The inside of a cylinder without end.
+    Cylinder {
+        /// A point of the axis [m].
+        point: [Length; 3],
+        /// Direction of the axis [-].
+        axis: [Number; 3],
+        /// Radius [m].
+        radius: Length,
+    },
+    /// Triangles of a file.
+    Mesh {
+        /// Path relative to the case file.
+        path: String,
+        /// Length of one unit of the file [m].
+        scale: Length,
+    },
+}
+
+/// Degrees of freedom of a wall.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Motion {
+    /// It does not move.
+    Fixed,
+    /// It moves at a constant velocity.
+    Prescribed {
+        /// Velocity [m/s].
+        velocity: [Speed; 3],
+    },
+    /// It follows the load on it: m x'' = F - load - damping x'.
+    Servo {
+        /// Direction of the motion, away from the particles [-].
+        direction: [Number; 3],
+        /// External load.
+        load: Load,
+        /// Mass [kg].
+        mass: Mass,
+        /// Dashpot constant [kg/s].
+        damping: Dashpot,
+    },
+    /// It hangs on a spring.
+    Sprung {
+        /// Direction of the motion [-].
+        direction: [Number; 3],
+        /// Mass [kg].
+        mass: Mass,
+        /// Stiffness of the spring [N/m].
+        stiffness: Stiffness,
+        /// Dashpot constant [kg/s].
+        damping: Dashpot,
+        /// Force of the spring at the start [N].
+        preload: Force,
+    },
+    /// It oscillates about its place.
+    Oscillating {
+        /// Direction of the motion [-].
+        direction: [Number; 3],
+        /// Amplitude [m].
+        amplitude: Length,
+        /// Frequency [Hz].
+        frequency: Frequency,
+    },
+}
+
+/// External load on a servo wall.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Load {
+    /// A force [N].
+    Force {
+        /// Force [N].
+        value: Force,
+    },
+    /// A pressure on the area of the wall inside the domain [Pa].
+    Pressure {
+        /// Pressure [Pa].
+        value: Pressure,
+    },
+    /// A stress of two dimensions on the length of the wall between two other walls [N/m].
+    LineStress {
+        /// Stress [N/m].
+        value: Stiffness,
+        /// Names of the walls that bound the length.
+        between: [String; 2],
+    },
+}
+
+/// One stage: actions at its beginning, then time until its end.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Name, for records and branches.
+    pub name: String,
+    /// When it ends.
+    pub end: End,
+    /// What happens at its beginning, in order.
+    #[serde(default)]
+    pub actions: Vec<Action>,
+}
+
+/// End of a stage.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum End {
+    /// After a time.
+    Duration {
+        /// Time [s].
+        value: Duration,
+    },
+    /// After a multiple of the duration of the shortest elastic impact at the start velocities.
+    Contacts {
+        /// Multiple [-].
+        value: Number,
+    },
+    /// When the bed is at rest.
+    AtRest {
+        /// Kinetic energy per particle, in units of m g d [-].
+        kinetic_energy: Number,
+        /// Time after which the stage is given up [s].
+        at_most: Duration,
+    },
+}
+
+/// Actions at the beginning of a stage.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Action {
+    /// Gives a pair of materials new values (`friction = 0` switches friction off).
+    SetPair {
+        /// Names of the two materials.
+        between: [String; 2],
+        /// The new values; what is absent stays.
+        values: PairValues,
+    },
+    /// Gives a body another motion.
+    SetMotion {
+        /// Name of the body.
+        body: String,
+        /// The new motion.
+        motion: Motion,
+    },
+    /// Removes a body.
+    Remove {
+        /// Name of the body.
+        body: String,
+    },
+    /// Moves a body along a smooth strain path: position = start (1 - strain/2 (1 - cos(pi t / duration))).
+    Strain {
+        /// Name of the body.
+        body: String,
+        /// Name of the body from which the length is measured.
+        from: String,
+        /// Largest strain [-].
+        strain: Number,
+    },
+    /// Ramps a temperature linearly over the stage.
+    RampTemperature {
+        /// What is heated.
+        target: HeatTarget,
+        /// Temperature at the end of the stage [K].
+        to: Temperature,
+    },
+    /// Gives the relaxation time of a law's stiffness.
+    SetRelaxationTime {
+        /// Relaxation time [s].
+        value: Duration,
+    },
+    /// Changes gravity.
+    SetGravity {
+        /// Gravity [m/s2].
+        value: [super::quantity::Acceleration; 3],
+    },
+    /// Adds particles.
+    Deposit {
+        /// Where they come from.
+        particles: super::schema::ParticleSource,
+    },
+    /// Drives one particle along a path and holds all others: one contact along a prescribed path.
+    Drive {
+        /// Index of the driven particle.
+        particle: u32,
+        /// Velocity [m/s].
+        velocity: [Speed; 3],
+        /// Angular velocity [rad/s].
+        angular_velocity: [AngularSpeed; 3],
+        /// Rotation of the whole configuration about the origin [rad/s].
+        rotation: [AngularSpeed; 3],
+    },
+}
+
+/// What a temperature ramp heats.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum HeatTarget {
+    /// All particles and the law's own temperature.
+    Particles,
+    /// One body.
+    Body {
+        /// Name of the body.
+        name: String,
+    },
+}

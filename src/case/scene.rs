@@ -1,0 +1,423 @@
+//! Scenes: one runnable problem with nothing left to resolve (docs/formats.md).
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
+use super::protocol::{End, Motion, Shape};
+use super::quantity::{Kind, Number, Quantity};
+use super::schema::{Boundary, Case, Geometry, Level, ParticleSource, TimeStep};
+use crate::error::Problem;
+use crate::geometry::{self, ContactGeometry};
+use crate::laws::PairLaw;
+use crate::laws::normal::hertz::Hertz;
+use crate::material::{self, Material, PairProperties};
+use crate::Vector;
+
+/// The version of the scene format.
+pub const SCHEMA: u32 = 1;
+
+/// One runnable problem.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct Scene {
+    pub schema: u32,
+    pub case: String,
+    pub variant: String,
+    pub seed: Option<u64>,
+    pub refinement: u32,
+    pub level: Level,
+    pub time_step: f64,
+    pub steps: u64,
+    pub output_every: u64,
+    pub gravity: [f64; 3],
+    pub domain: SceneDomain,
+    pub materials: Vec<Material>,
+    pub pairs: Vec<PairProperties>,
+    pub model: SceneModel,
+    pub mirror: Mirror,
+    pub bodies: Vec<SceneBody>,
+    pub particles: Vec<SceneParticle>,
+}
+
+/// The box of a scene [m].
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneDomain {
+    pub min: [f64; 3],
+    pub max: [f64; 3],
+    pub boundary: [Boundary; 3],
+}
+
+/// The contact model of a scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneModel {
+    pub normal: NormalLaw,
+}
+
+/// Engine options that reproduce another code; the plain engine uses [`Mirror::default`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mirror {
+    /// A plane acts like a sphere whose radius is this multiple of the particle's.
+    pub plane_radius_factor: Option<f64>,
+    /// Where velocities start.
+    pub start: Start,
+}
+
+/// Where velocities start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// With the positions: velocity Verlet.
+    #[default]
+    Synchronized,
+    /// Half a step before them: leapfrog.
+    Staggered,
+}
+
+/// A wall of a scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneBody {
+    pub name: String,
+    pub material: usize,
+    pub shape: SceneShape,
+    pub motion: SceneMotion,
+}
+
+/// Shape of a wall [m].
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub enum SceneShape {
+    Plane { point: [f64; 3], normal: [f64; 3] },
+}
+
+/// Motion of a wall [m/s].
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub enum SceneMotion {
+    Fixed,
+    Prescribed { velocity: [f64; 3] },
+}
+
+/// A particle at the start.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneParticle {
+    pub material: usize,
+    pub radius: f64,
+    pub mass: f64,
+    pub moment_of_inertia: f64,
+    pub position: [f64; 3],
+    pub velocity: [f64; 3],
+    pub angular_velocity: [f64; 3],
+}
+
+impl Scene {
+    /// `case/variant`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        if self.variant.is_empty() { self.case.clone() } else { format!("{}/{}", self.case, self.variant) }
+    }
+
+    /// The pair of two materials, if it is stated.
+    #[must_use]
+    pub fn pair(&self, first: usize, second: usize) -> Option<&PairProperties> {
+        self.pairs.iter().find(|pair| pair.between == [first, second] || pair.between == [second, first])
+    }
+}
+
+fn si<K: Kind, const N: usize>(values: &[Quantity<K>; N]) -> [f64; N] {
+    values.map(Quantity::si)
+}
+
+/// Resolves one variant into a scene whose time step is divided by 2^`refinement`.
+pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Problem> {
+    supported(case)?;
+    let mut scene = Scene {
+        schema: SCHEMA,
+        case: case.name.clone(),
+        variant: variant.to_owned(),
+        seed: None,
+        refinement,
+        level: case.level,
+        time_step: 0.0,
+        steps: 0,
+        output_every: case.output.every << refinement,
+        gravity: si(&case.gravity),
+        domain: SceneDomain { min: si(&case.domain.min), max: si(&case.domain.max), boundary: case.domain.boundary },
+        materials: case.materials.iter().map(solid).collect(),
+        pairs: Vec::new(),
+        model: SceneModel { normal: case.model.normal.clone() },
+        mirror: Mirror::default(),
+        bodies: Vec::new(),
+        particles: Vec::new(),
+    };
+    scene.pairs = pairs(case, &scene.materials);
+    scene.bodies = bodies(case);
+    scene.particles = case.particles.iter().filter_map(|source| single(case, source)).collect();
+    drop_unused_materials(&mut scene);
+    let approaches = approaches(case, &scene)?;
+    steps(case, &mut scene, &approaches)?;
+    Ok(scene)
+}
+
+/// Refuses by name what the schema can say and this build does not compute.
+fn supported(case: &Case) -> Result<(), Problem> {
+    let refuse = |key: &str, value: String, what: &str| Err(Problem::new(key, value, format!("this version computes only {what}")));
+    if !matches!(case.geometry, Geometry::Spheres) {
+        return refuse("geometry", format!("{:?}", case.geometry), "spheres");
+    }
+    if !matches!(case.model.normal, NormalLaw::Hertz { .. }) {
+        return refuse("model.normal", format!("{:?}", case.model.normal), "the normal law `hertz`");
+    }
+    if case.model.tangential != TangentialLaw::Frictionless {
+        return refuse("model.tangential", format!("{:?}", case.model.tangential), "the tangential law `frictionless`");
+    }
+    if case.model.moments != MomentLaw::Free {
+        return refuse("model.moments", format!("{:?}", case.model.moments), "the moment law `free`");
+    }
+    if case.model.heat.is_some() {
+        return refuse("model.heat", format!("{:?}", case.model.heat), "cases without heat");
+    }
+    if let Some(start) = &case.start_from {
+        return refuse("start_from", start.case.clone(), "cases that state their particles");
+    }
+    if case.ensemble.is_some() {
+        return refuse("ensemble", "seeds".to_owned(), "cases without an ensemble");
+    }
+    for (axis, boundary) in case.domain.boundary.iter().enumerate() {
+        if *boundary != Boundary::Open {
+            return refuse(&format!("domain.boundary.{axis}"), format!("{boundary:?}"), "open boundaries");
+        }
+    }
+    for (i, source) in case.particles.iter().enumerate() {
+        if !matches!(source, ParticleSource::Single { .. }) {
+            return refuse(&format!("particles.{i}.kind"), format!("{source:?}"), "the kind `single`");
+        }
+    }
+    for (i, body) in case.bodies.iter().enumerate() {
+        if !matches!(body.shape, Shape::Plane { .. }) {
+            return refuse(&format!("bodies.{i}.shape"), format!("{:?}", body.shape), "planes");
+        }
+        if !matches!(body.motion, Motion::Fixed | Motion::Prescribed { .. }) {
+            return refuse(&format!("bodies.{i}.motion"), format!("{:?}", body.motion), "fixed and prescribed bodies");
+        }
+    }
+    if case.stages.len() != 1 || !case.stages[0].actions.is_empty() {
+        return refuse("stages", format!("{} stages", case.stages.len()), "one stage without actions");
+    }
+    Ok(())
+}
+
+fn solid(material: &super::schema::Material) -> Material {
+    Material {
+        name: material.name.clone(),
+        rigid: material.rigid,
+        young: material.young.map(Quantity::si),
+        poisson: material.poisson.map(Number::get),
+        density: material.density.map(Quantity::si),
+    }
+}
+
+/// A scene states the materials that it uses and no others: a sweep over materials leaves one at each point.
+fn drop_unused_materials(scene: &mut Scene) {
+    let used: Vec<bool> = (0..scene.materials.len())
+        .map(|index| {
+            scene.particles.iter().any(|particle| particle.material == index)
+                || scene.bodies.iter().any(|body| body.material == index)
+        })
+        .collect();
+    let renumbered = |index: usize| used[..index].iter().filter(|used| **used).count();
+    scene.pairs.retain(|pair| pair.between.iter().all(|index| used[*index]));
+    for pair in &mut scene.pairs {
+        pair.between = pair.between.map(renumbered);
+    }
+    for particle in &mut scene.particles {
+        particle.material = renumbered(particle.material);
+    }
+    for body in &mut scene.bodies {
+        body.material = renumbered(body.material);
+    }
+    let mut keep = used.iter();
+    scene.materials.retain(|_| keep.next().copied().unwrap_or_default());
+}
+
+fn index(case: &Case, name: &str) -> usize {
+    // Names were checked before: an unknown one never comes here.
+    case.materials.iter().position(|material| material.name == name).unwrap_or_default()
+}
+
+fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
+    let mixed = |pair: &super::schema::Pair| {
+        let between = [index(case, &pair.between[0]), index(case, &pair.between[1])];
+        let [first, second] = between.map(|at| &materials[at]);
+        let (damping_ratio, restitution) = match &pair.values.damping {
+            Some(Damping::Restitution { value }) => (material::damping_ratio(value.get()), Some(value.get())),
+            Some(Damping::Ratio { value }) => (value.get(), None),
+            Some(Damping::None) | None => (0.0, None),
+        };
+        let shear = material::effective_shear(first, second);
+        PairProperties {
+            between,
+            effective_young: material::effective_young(first, second),
+            effective_shear: shear.is_finite().then_some(shear),
+            damping_ratio,
+            restitution,
+        }
+    };
+    case.pairs.iter().map(mixed).collect()
+}
+
+fn bodies(case: &Case) -> Vec<SceneBody> {
+    let mut scene = Vec::new();
+    for body in &case.bodies {
+        let Shape::Plane { point, normal } = &body.shape else { continue };
+        let normal = Vector::from(normal.map(Number::get)).normalize();
+        scene.push(SceneBody {
+            name: body.name.clone(),
+            material: index(case, &body.material),
+            shape: SceneShape::Plane { point: si(point), normal: normal.into() },
+            motion: match &body.motion {
+                Motion::Prescribed { velocity } => SceneMotion::Prescribed { velocity: si(velocity) },
+                _ => SceneMotion::Fixed,
+            },
+        });
+    }
+    scene
+}
+
+fn single(case: &Case, source: &ParticleSource) -> Option<SceneParticle> {
+    let ParticleSource::Single { material, radius, position, velocity, angular_velocity } = source else { return None };
+    let material = index(case, material);
+    let radius = radius.si();
+    let mass = case.materials[material].density?.si() * (4.0 / 3.0 * PI * radius * radius * radius);
+    Some(SceneParticle {
+        material,
+        radius,
+        mass,
+        moment_of_inertia: 0.4 * mass * radius * radius,
+        position: si(position),
+        velocity: si(velocity),
+        angular_velocity: si(angular_velocity),
+    })
+}
+
+/// A pair of bodies that moves together at the start: the law's view of it and its speed [m/s].
+struct StartApproach {
+    law: PairLaw,
+    speed: f64,
+}
+
+/// Every pair that approaches at the start; refuses overlaps that the case does not permit.
+fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem> {
+    let mut found = Vec::new();
+    let mut add = |key: String, what: &str, geometry: ContactGeometry, mass: f64, materials: [usize; 2], velocity: Vector| {
+        if geometry.overlap > 0.0 && !case.allow_initial_overlap {
+            return Err(Problem::new(
+                key,
+                format!("overlap of {:e} m with {what}", geometry.overlap),
+                "particles start apart, or allow_initial_overlap = true permits it",
+            ));
+        }
+        let speed = -velocity.dot(&geometry.normal);
+        if let (true, Some(pair)) = (speed > 0.0, scene.pair(materials[0], materials[1])) {
+            found.push(StartApproach {
+                law: PairLaw {
+                    effective_young: pair.effective_young,
+                    effective_radius: geometry.effective_radius(),
+                    effective_mass: mass,
+                    damping_ratio: pair.damping_ratio,
+                },
+                speed,
+            });
+        }
+        Ok(())
+    };
+    for (i, one) in scene.particles.iter().enumerate() {
+        let key = format!("particles.{i}.position");
+        let (center, velocity) = (Vector::from(one.position), Vector::from(one.velocity));
+        for (j, other) in scene.particles.iter().enumerate().take(i) {
+            let Some(geometry) = geometry::sphere_sphere(center, one.radius, other.position.into(), other.radius) else {
+                return Err(Problem::new(key, format!("{:?}", one.position), format!("particle {j} has the same centre")));
+            };
+            let mass = material::reduced(one.mass, other.mass);
+            add(key.clone(), &format!("particle {j}"), geometry, mass, [one.material, other.material], velocity - Vector::from(other.velocity))?;
+        }
+        for body in &scene.bodies {
+            let SceneShape::Plane { point, normal } = &body.shape;
+            let geometry = geometry::sphere_plane(center, one.radius, (*point).into(), (*normal).into());
+            let wall = match &body.motion {
+                SceneMotion::Prescribed { velocity } => Vector::from(*velocity),
+                SceneMotion::Fixed => Vector::zeros(),
+            };
+            add(key.clone(), &format!("body {}", body.name), geometry, one.mass, [one.material, body.material], velocity - wall)?;
+        }
+    }
+    Ok(found)
+}
+
+/// Chooses the time step and the number of steps.
+fn steps(case: &Case, scene: &mut Scene, approaches: &[StartApproach]) -> Result<(), Problem> {
+    let impact = approaches
+        .iter()
+        .map(|start| Hertz::elastic_impact(&start.law, start.speed).duration)
+        .reduce(f64::min)
+        .ok_or("nothing approaches anything at the start: there is no contact duration");
+    let rayleigh = scene
+        .particles
+        .iter()
+        .filter_map(|particle| scene.materials[particle.material].rayleigh_time(particle.radius))
+        .reduce(f64::min)
+        .unwrap_or(f64::INFINITY);
+    let (key, base) = match &case.time.step {
+        TimeStep::Fixed { value } => ("time.step.value", value.si()),
+        TimeStep::ContactFraction { steps_per_contact } => {
+            let key = "time.step.steps_per_contact";
+            let duration = impact.map_err(|why| Problem::new(key, steps_per_contact, why))?;
+            (key, duration / f64::from(*steps_per_contact))
+        }
+        TimeStep::RayleighFraction { fraction } => ("time.step.fraction", fraction.get() * rayleigh),
+    };
+    if base > rayleigh {
+        return Err(Problem::new(
+            key,
+            format!("{base} s"),
+            format!("above the stability limit: the Rayleigh time of the smallest particle is {rayleigh:e} s"),
+        ));
+    }
+    let length = match &case.stages[0].end {
+        End::Duration { value } => value.si(),
+        End::Contacts { value } => {
+            value.get() * impact.map_err(|why| Problem::new("stages.0.end", value.get(), why))?
+        }
+        End::AtRest { .. } => return Err(Problem::new("stages.0.end", "at_rest", "this version ends stages by time only")),
+    };
+    if length <= 0.0 {
+        return Err(Problem::new("stages.0.end.value", length, "must be positive"));
+    }
+    scene.time_step = base / 2f64.powi(i32::try_from(scene.refinement).unwrap_or_default());
+    let every = case.output.every;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive count far below 2^63")]
+    let samples = (length / base / every as f64).ceil() as u64;
+    scene.steps = samples * every << scene.refinement;
+    Ok(())
+}
+
+impl ForceCut {
+    /// What plain native does: a dashpot never pulls unless the case says so.
+    #[must_use]
+    pub fn cuts(self) -> bool {
+        self != Self::Off
+    }
+}

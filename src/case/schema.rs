@@ -1,0 +1,408 @@
+//! The types of the case file. They are the schema: Rust and Python read cases through them, and
+//! `crossgrain schema` publishes them as JSON schema. Physics has no defaults here; only output has.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::model::{Model, PairValues};
+use super::protocol::{Body, Stage};
+use super::quantity::{
+    Acceleration, AngularSpeed, Conductivity, Density, Duration, Expansion, HeatCapacity, Length, Number, Pressure, Speed,
+    Temperature,
+};
+
+/// The version of the case schema that this build reads.
+pub const SCHEMA: u32 = 1;
+
+/// One physical question, stated once for every code.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Version of the schema: 1.
+    pub schema: u32,
+    /// Name in decks, reports and verdicts: letters, digits, `-`.
+    pub name: String,
+    /// The physical question that the case asks, as a sentence.
+    pub question: String,
+    /// Level on the ladder of agreement.
+    pub level: Level,
+    /// Where parameters and targets come from.
+    pub source: String,
+    /// Suites that run the case.
+    #[serde(default)]
+    pub suites: Vec<Suite>,
+    /// Spheres, or disks that move in a plane.
+    pub geometry: Geometry,
+    /// Gravity [m/s2].
+    pub gravity: [Acceleration; 3],
+    /// The box that holds every particle.
+    pub domain: Domain,
+    /// Materials by name.
+    pub materials: Vec<Material>,
+    /// Values of every pair of materials that can touch.
+    #[serde(default)]
+    pub pairs: Vec<Pair>,
+    /// The contact model.
+    pub model: Model,
+    /// Walls.
+    #[serde(default)]
+    pub bodies: Vec<Body>,
+    /// Where the particles come from.
+    #[serde(default)]
+    pub particles: Vec<ParticleSource>,
+    /// Another case's state to start from, in place of `particles`.
+    pub start_from: Option<StartFrom>,
+    /// Permits particles that overlap each other or a body at the start.
+    #[serde(default)]
+    pub allow_initial_overlap: bool,
+    /// Time step.
+    pub time: TimeStepping,
+    /// What happens, one stage after the other.
+    pub stages: Vec<Stage>,
+    /// What is compared, and how far it may differ.
+    #[serde(default)]
+    pub gates: Vec<Gate>,
+    /// Sweeps: every combination of the points of all axes is one variant.
+    #[serde(default)]
+    pub vary: Vec<Vary>,
+    /// Seeds of an ensemble.
+    pub ensemble: Option<Ensemble>,
+    /// Sampling of the run record.
+    #[serde(default)]
+    pub output: Output,
+}
+
+/// Levels of the ladder of agreement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+pub enum Level {
+    /// One contact along a prescribed path.
+    L0,
+    /// Free impacts of two bodies.
+    L1,
+    /// Forces of one many-body state.
+    L2,
+    /// Short many-body trajectories.
+    L3,
+    /// Bulk observables over seeds.
+    L4,
+    /// Closed forms, published tables, experiments.
+    L5,
+}
+
+/// Named sets of cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Suite {
+    /// A quick cut of everything.
+    Standard,
+    /// Contacts along prescribed paths.
+    Laws,
+    /// Two-body impacts.
+    Collisions,
+    /// Forces of many-body states.
+    Snapshots,
+    /// Beds.
+    Bulk,
+    /// Long-time sintering.
+    Sintering,
+    /// Fine powders.
+    FinePowders,
+    /// Packed beds, silos, heat.
+    PackedBeds,
+}
+
+/// Shape of the particles.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Geometry {
+    /// Spheres in three dimensions.
+    Spheres,
+    /// Disks of one height that move in the x-z plane.
+    Disks {
+        /// Height of the disks [m].
+        height: Length,
+    },
+}
+
+/// The box that holds every particle.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Lower corner [m].
+    pub min: [Length; 3],
+    /// Upper corner [m].
+    pub max: [Length; 3],
+    /// What the faces of each axis do.
+    pub boundary: [Boundary; 3],
+}
+
+/// Faces of the domain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Boundary {
+    /// Particles must stay inside.
+    Open,
+    /// Particles re-enter on the other side.
+    Periodic,
+}
+
+/// A material.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Name.
+    pub name: String,
+    /// An intent: a body of this material does not deform. It then has no other value.
+    #[serde(default)]
+    pub rigid: bool,
+    /// Young's modulus [Pa].
+    pub young: Option<Pressure>,
+    /// Poisson's ratio [-], between -1 and 0.5.
+    pub poisson: Option<Number>,
+    /// Density [kg/m3].
+    pub density: Option<Density>,
+    /// Yield strength [Pa], for plastic laws.
+    pub yield_strength: Option<Pressure>,
+    /// Thermal properties, for heated beds.
+    pub thermal: Option<Thermal>,
+}
+
+/// Thermal properties of a material.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Thermal {
+    /// Thermal conductivity [W/(m K)].
+    pub conductivity: Conductivity,
+    /// Specific heat capacity [J/(kg K)].
+    pub heat_capacity: HeatCapacity,
+    /// Linear thermal expansion of the radius [1/K].
+    pub expansion: Expansion,
+    /// Temperature at which the radii are given [K].
+    pub reference_temperature: Temperature,
+}
+
+/// Values of one pair of materials.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Pair {
+    /// Names of the two materials.
+    pub between: [String; 2],
+    /// Values that the laws of the model ask for.
+    pub values: PairValues,
+}
+
+/// A source of particles.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum ParticleSource {
+    /// One particle.
+    Single {
+        /// Name of the material.
+        material: String,
+        /// Radius [m].
+        radius: Length,
+        /// Centre [m].
+        position: [Length; 3],
+        /// Velocity [m/s].
+        velocity: [Speed; 3],
+        /// Angular velocity [rad/s].
+        angular_velocity: [AngularSpeed; 3],
+    },
+    /// Particles at random places without overlap, from the seed of the ensemble.
+    Random {
+        /// Name of the material.
+        material: String,
+        /// Number of particles.
+        count: u32,
+        /// Radii.
+        radius: RadiusDistribution,
+        /// Lower and upper corner of the region of the centres [m].
+        region: [[Length; 3]; 2],
+        /// Largest component of the uniform random velocity [m/s].
+        velocity: Speed,
+    },
+    /// A cubic lattice with noise, from the seed of the ensemble.
+    Lattice {
+        /// Name of the material.
+        material: String,
+        /// Particles along each axis.
+        count: [u32; 3],
+        /// Radii.
+        radius: RadiusDistribution,
+        /// Centre of the first particle [m].
+        origin: [Length; 3],
+        /// Distance of neighbours [m].
+        spacing: Length,
+        /// Largest displacement along each axis [m].
+        noise: Length,
+    },
+    /// Particles of a file with the columns x, y, z, radius.
+    File {
+        /// Name of the material.
+        material: String,
+        /// Path relative to the case file.
+        path: String,
+    },
+}
+
+/// Distribution of radii.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum RadiusDistribution {
+    /// One radius.
+    Equal {
+        /// Radius [m].
+        value: Length,
+    },
+    /// Uniform between two radii.
+    Uniform {
+        /// Smallest radius [m].
+        min: Length,
+        /// Largest radius [m].
+        max: Length,
+    },
+}
+
+/// The state of another case at the end of one of its stages.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StartFrom {
+    /// Name of the case.
+    pub case: String,
+    /// Name of its variant, empty if it has none.
+    #[serde(default)]
+    pub variant: String,
+    /// Name of the stage whose end is the start.
+    pub stage: String,
+    /// Time after the beginning of that stage, if not its end [s].
+    pub at: Option<Duration>,
+}
+
+/// The time step and its refinements.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TimeStepping {
+    /// How the time step is chosen.
+    pub step: TimeStep,
+    /// Number of times the native engine repeats the run with half the step, to know its time-step error.
+    #[serde(default)]
+    pub refinements: u32,
+}
+
+/// Choice of the time step.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum TimeStep {
+    /// A given step.
+    Fixed {
+        /// Time step [s].
+        value: Duration,
+    },
+    /// A fraction of the duration of the shortest elastic impact at the start velocities.
+    ContactFraction {
+        /// Steps per elastic contact duration.
+        steps_per_contact: u32,
+    },
+    /// A fraction of the Rayleigh time of the smallest particle.
+    RayleighFraction {
+        /// Fraction [-].
+        fraction: Number,
+    },
+}
+
+/// One comparison of one quantity.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Gate {
+    /// Name of an observable.
+    pub quantity: String,
+    /// What is compared with what.
+    pub check: Check,
+    /// Name of the closed form in `reference/analytic`, for `check = "reference"`.
+    pub reference: Option<String>,
+    /// How the difference is made a number.
+    pub scale: Scale,
+    /// Largest difference that agrees [in units of the scale].
+    pub bound: Number,
+    /// Where the bound comes from.
+    pub bound_source: String,
+    /// Interval of the order of convergence, for `check = "convergence"`.
+    pub order: Option<[Number; 2]>,
+}
+
+/// Kinds of comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Check {
+    /// Native and every code against a closed form.
+    Reference,
+    /// Each code against the mirror that claims to know what it does.
+    Mirror,
+    /// Plain native against each code; a difference is a known one if the mirror predicts it.
+    Plain,
+    /// The difference of two codes against the difference of their mirrors.
+    Prediction,
+    /// The native engine against itself at half the time step.
+    Convergence,
+    /// Equivalence of ensemble means.
+    Equivalence,
+}
+
+/// How a difference is made a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Scale {
+    /// Divided by the magnitude of the right side [-].
+    Relative,
+    /// As it is, in the unit of the quantity.
+    Absolute,
+    /// Divided by the largest magnitude of the series on the right [-].
+    Peak,
+    /// Divided by the range of the series on the right [-].
+    Range,
+}
+
+/// One axis of a sweep.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Vary {
+    /// Name of the axis, for plots.
+    pub axis: String,
+    /// Points of the axis.
+    pub points: Vec<VaryPoint>,
+}
+
+/// One point of a sweep.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct VaryPoint {
+    /// Name of the point in the variant's name: letters, digits, `-`, `_`, `.`, `=`.
+    pub label: String,
+    /// Position on the axis, for plots [-].
+    pub at: Option<Number>,
+    /// Keys of the case (`pairs.0.values.friction`) and their values at this point.
+    #[schemars(with = "std::collections::BTreeMap<String, serde_json::Value>")]
+    pub set: toml::Table,
+}
+
+/// Seeds of an ensemble.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ensemble {
+    /// Seeds, one run each.
+    pub seeds: Vec<u64>,
+}
+
+/// Sampling of the run record.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Steps between samples.
+    pub every: u64,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { every: 1 }
+    }
+}

@@ -1,0 +1,181 @@
+//! The command `crossgrain`.
+
+use std::ffi::OsString;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use clap::{Parser, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+
+use crate::case::scene::Scene;
+use crate::case::{self, Loaded};
+use crate::error::Error;
+use crate::record::Recorder;
+use crate::simulation;
+
+/// Everything went well.
+pub const SUCCESS: u8 = 0;
+/// Bad input, or nothing could run.
+pub const BAD_INPUT: u8 = 2;
+
+#[derive(Parser)]
+#[command(name = "crossgrain", version, about = "A discrete element code that is proved against others")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Runs a case and writes DIR/record/ and DIR/summary.json (one folder per variant where there are several).
+    Run {
+        /// Case file (TOML).
+        case: PathBuf,
+        /// Output folder.
+        #[arg(long, default_value = "out")]
+        out: PathBuf,
+        /// Number of threads; the results have the same bits for every number.
+        #[arg(long, default_value_t = 1)]
+        threads: usize,
+        /// Replaces a value of the case, for instance `time.step.value="1e-8 s"`.
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
+        /// Runs one variant only.
+        #[arg(long)]
+        variant: Option<String>,
+    },
+    /// Runs one scene (JSON) and writes its record into a folder.
+    RunScene {
+        /// Scene file.
+        scene: PathBuf,
+        /// Folder of the record.
+        #[arg(long)]
+        out: PathBuf,
+        /// Number of threads.
+        #[arg(long, default_value_t = 1)]
+        threads: usize,
+    },
+    /// Checks a case file without running it.
+    Check {
+        /// Case file (TOML).
+        case: PathBuf,
+    },
+    /// Prints the JSON schema of the case file.
+    Schema,
+}
+
+/// Runs the command line `arguments` and returns its exit code.
+pub fn run<I: IntoIterator<Item = OsString>>(arguments: I) -> u8 {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            let code = if error.use_stderr() { BAD_INPUT } else { SUCCESS };
+            return if error.print().is_ok() { code } else { BAD_INPUT };
+        }
+    };
+    let mut out = std::io::stdout().lock();
+    match execute(&arguments.command, &mut out) {
+        Ok(()) => SUCCESS,
+        Err(error) => {
+            // Nothing is left to do where even the message cannot be written.
+            let _ = writeln!(std::io::stderr(), "error: {error}");
+            BAD_INPUT
+        }
+    }
+}
+
+fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
+    let mut say = |text: String| writeln!(out, "{text}").map_err(|reason| Error::Write { file: "stdout".into(), reason });
+    match command {
+        Command::Run { case, out, threads, set, variant } => {
+            let loaded = case::read(case, set)?.load()?;
+            let scenes = selected(&loaded, variant.as_deref())?;
+            let progress = bar(scenes.iter().map(|scene| scene.steps).sum());
+            for scene in &scenes {
+                let folder = if scenes.len() == 1 { out.clone() } else { out.join(&scene.variant) };
+                run_case(scene, *threads, &folder, &progress)?;
+            }
+            progress.finish_and_clear();
+            say(format!("{}: {} scenes in {}", loaded.case.name, scenes.len(), out.display()))
+        }
+        Command::RunScene { scene, out, threads } => {
+            let text = std::fs::read_to_string(scene).map_err(|reason| Error::Read { file: scene.clone(), reason })?;
+            let scene: Scene = parse_scene(&scene.display().to_string(), &text)?;
+            simulation::run(&scene, *threads, &|_| {})?.write(out)
+        }
+        Command::Check { case } => {
+            let loaded = case::read(case, &[])?.load()?;
+            say(format!("{}: {} variants, {} scenes", loaded.case.name, loaded.variants.len(), loaded.scenes.len()))
+        }
+        Command::Schema => say(serde_json::to_string_pretty(&case::json_schema()).unwrap_or_default()),
+    }
+}
+
+/// Reads a scene from JSON; `file` is its name in messages.
+///
+/// # Errors
+/// The text is not a scene.
+pub fn parse_scene(file: &str, text: &str) -> Result<Scene, Error> {
+    serde_json::from_str(text).map_err(|error| Error::Parse { file: file.to_owned(), message: error.to_string() })
+}
+
+/// Scenes of the wanted variant at the time step of the case.
+fn selected<'a>(loaded: &'a Loaded, variant: Option<&str>) -> Result<Vec<&'a Scene>, Error> {
+    let plain = loaded.scenes.iter().filter(|scene| scene.refinement == 0);
+    let scenes: Vec<&Scene> = plain.filter(|scene| variant.is_none_or(|name| scene.variant == name)).collect();
+    if scenes.is_empty() {
+        return Err(Error::UnknownVariant {
+            wanted: variant.unwrap_or_default().to_owned(),
+            known: loaded.variants.iter().map(|variant| variant.name.as_str()).collect::<Vec<_>>().join(" "),
+        });
+    }
+    Ok(scenes)
+}
+
+fn bar(steps: u64) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {per_sec}, {eta} left");
+    ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn run_case(scene: &Scene, threads: usize, folder: &Path, progress: &ProgressBar) -> Result<(), Error> {
+    let done = progress.position();
+    let recorder = simulation::run(scene, threads, &|step| {
+        if step % 1024 == 0 {
+            progress.set_position(done + step);
+        }
+    })?;
+    progress.set_position(done + scene.steps);
+    recorder.write(&folder.join("record"))?;
+    let file = folder.join("summary.json");
+    let text = serde_json::to_string_pretty(&summary(scene, &recorder)).unwrap_or_default();
+    std::fs::write(&file, text + "\n").map_err(|reason| Error::Write { file, reason })
+}
+
+/// Observables of a run by name, with value and unit.
+fn summary(scene: &Scene, recorder: &Recorder) -> serde_json::Value {
+    let last = |name| recorder.last(name).unwrap_or_default();
+    let largest = |name| recorder.values(name).iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let total = last("energy_kinetic") + last("energy_elastic") + last("energy_gravity");
+    let first = ["energy_kinetic", "energy_elastic", "energy_gravity"]
+        .iter()
+        .map(|name| recorder.values(name).first().copied().unwrap_or_default())
+        .sum::<f64>();
+    let residual = total + last("energy_viscous") - last("energy_body_work") - first;
+    let value = |value: f64, unit: &str| json!({"value": value, "unit": unit});
+    json!({
+        "scene": scene.name(),
+        "observables": {
+            "time": value(scene.time_step * scene.steps as f64, "s"),
+            "steps": value(scene.steps as f64, "-"),
+            "largest_force_component": value(largest("force"), "N"),
+            "kinetic_energy": value(last("energy_kinetic"), "J"),
+            "elastic_energy": value(last("energy_elastic"), "J"),
+            "viscous_dissipation": value(last("energy_viscous"), "J"),
+            "energy_residual": value(residual, "J"),
+        },
+    })
+}

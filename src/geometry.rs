@@ -1,0 +1,71 @@
+//! Contact geometry: sphere against sphere and sphere against plane give the same description.
+
+use crate::Vector;
+
+/// Where two bodies touch, seen from particle i.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactGeometry {
+    /// Unit normal from j to i [-].
+    pub normal: Vector,
+    /// Overlap, positive in contact [m].
+    pub overlap: f64,
+    /// Radius of i [m].
+    pub radius_i: f64,
+    /// Radius of j [m]; infinite for a plane.
+    pub radius_j: f64,
+}
+
+impl ContactGeometry {
+    /// R* = `Ri` `Rj` / (`Ri` + `Rj`), and `Ri` at a plane [m].
+    #[must_use]
+    pub fn effective_radius(&self) -> f64 {
+        if self.radius_j.is_infinite() {
+            self.radius_i
+        } else {
+            crate::material::reduced(self.radius_i, self.radius_j)
+        }
+    }
+}
+
+/// Two spheres: centres [m] and radii [m]. None where the centres coincide.
+#[must_use]
+pub fn sphere_sphere(center_i: Vector, radius_i: f64, center_j: Vector, radius_j: f64) -> Option<ContactGeometry> {
+    let branch = center_i - center_j;
+    let distance = branch.norm();
+    (distance > 0.0).then(|| ContactGeometry {
+        normal: branch / distance,
+        overlap: radius_i + radius_j - distance,
+        radius_i,
+        radius_j,
+    })
+}
+
+/// A sphere and a plane through `point` [m] with the unit `normal` into the region of the particles.
+#[must_use]
+pub fn sphere_plane(center: Vector, radius: f64, point: Vector, normal: Vector) -> ContactGeometry {
+    let distance = (center - point).dot(&normal);
+    ContactGeometry { normal, overlap: radius - distance, radius_i: radius, radius_j: f64::INFINITY }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_point_from_j_to_i_and_overlap_is_positive_in_contact() {
+        let contact = sphere_sphere(Vector::new(1.5, 0.0, 0.0), 1.0, Vector::zeros(), 1.0).unwrap();
+        assert_eq!(contact.normal, Vector::new(1.0, 0.0, 0.0));
+        assert!((contact.overlap - 0.5).abs() < 1e-15);
+        assert!((contact.effective_radius() - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_plane_is_the_limit_of_a_large_sphere() {
+        let (center, radius) = (Vector::new(0.3, 0.2, 0.9), 1.0);
+        let plane = sphere_plane(center, radius, Vector::zeros(), Vector::z());
+        let large = 1e8;
+        let sphere = sphere_sphere(center, radius, Vector::new(0.3, 0.2, -large), large).unwrap();
+        assert!((plane.overlap - sphere.overlap).abs() < 1e-7);
+        assert!((plane.effective_radius() / sphere.effective_radius() - 1.0 - 1e-8).abs() < 1e-12);
+    }
+}

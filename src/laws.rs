@@ -1,0 +1,143 @@
+//! Contact laws and their composition.
+//!
+//! A contact model is composed of a normal, a tangential and a moment law and monomorphised for the listed
+//! combinations ([`model`]). Every formula stands once, in its law's file; sphere-sphere contacts, bodies, and output
+//! all come through the same [`model::ContactModel::evaluate`].
+
+pub mod model;
+pub mod normal;
+
+use crate::Vector;
+use crate::geometry::ContactGeometry;
+
+/// What a law knows of its pair: mixed material values and the geometry of the two bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct PairLaw {
+    /// E* [Pa].
+    pub effective_young: f64,
+    /// R* [m].
+    pub effective_radius: f64,
+    /// m* [kg]; the mass of the particle at a body.
+    pub effective_mass: f64,
+    /// Fraction of critical damping [-].
+    pub damping_ratio: f64,
+}
+
+/// Normal kinematics of a contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach {
+    /// Overlap, positive in contact [m].
+    pub overlap: f64,
+    /// Normal velocity, positive when approaching [m/s].
+    pub normal_velocity: f64,
+}
+
+/// What a normal law hands to the laws after it and to the ledger.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NormalState {
+    /// Total normal force, positive when it repels [N].
+    pub force: f64,
+    /// Its part that is stored [N]; the rest is dissipated.
+    pub elastic: f64,
+    /// The repulsive part that friction sees [N].
+    pub repulsive: f64,
+    /// Size of the most attractive force of the contact [N].
+    pub pull_off: f64,
+    /// Radius of the contact spot [m].
+    pub contact_radius: f64,
+    /// Slope of the elastic force [N/m].
+    pub tangent_stiffness: f64,
+    /// Stored energy [J].
+    pub energy: f64,
+}
+
+/// A law of the force along the normal.
+pub trait NormalLaw: Copy + Send + Sync {
+    /// What one contact remembers; a new contact starts with the default.
+    type History: Copy + Default + Send + Sync;
+    /// What all contacts share (a stiffness that ages, a temperature): it advances once per step and keeps what it was
+    /// before, because a contact may need both.
+    type Shared: Clone + Default + Send + Sync;
+
+    /// Advances the shared state by `dt` [s] to `time` [s].
+    fn advance(&self, _shared: &mut Self::Shared, _time: f64, _dt: f64) {}
+
+    /// The force at a contact that is alive.
+    fn evaluate(
+        &self,
+        pair: &PairLaw,
+        approach: &Approach,
+        shared: &Self::Shared,
+        history: &mut Self::History,
+    ) -> NormalState;
+
+    /// Lets the tangential force act back on the normal force: laws whose sliding contacts do not pull override it.
+    fn finish(&self, state: NormalState, _sliding: bool, _history: &mut Self::History) -> NormalState {
+        state
+    }
+
+    /// Whether a contact lives at `overlap` [m]; laws that act across a gap override it.
+    fn alive(&self, overlap: f64, _history: &Self::History) -> bool {
+        overlap > 0.0
+    }
+
+    /// Largest gap across which the law acts [m].
+    fn reach(&self) -> f64 {
+        0.0
+    }
+}
+
+/// Force in the contact plane and the points where it acts.
+#[derive(Clone, Copy, Debug)]
+pub struct TangentialState {
+    /// Force on i [N].
+    pub force: Vector,
+    /// Whether the contact slides.
+    pub sliding: bool,
+    /// Lever arms from the two centres to the contact [m]; the law owns them.
+    pub arms: [f64; 2],
+}
+
+/// A law of the force in the contact plane.
+pub trait TangentialLaw: Copy + Send + Sync {
+    /// What one contact remembers.
+    type History: Copy + Default + Send + Sync;
+
+    /// The force at a contact over a step `dt` [s].
+    fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Self::History) -> TangentialState;
+}
+
+/// A law of rolling and twisting moments.
+pub trait MomentLaw: Copy + Send + Sync {
+    /// What one contact remembers.
+    type History: Copy + Default + Send + Sync;
+
+    /// The moment on i over a step `dt` [s]; its opposite acts on j [N m].
+    fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Self::History) -> Vector;
+}
+
+/// Everything a law may know of a contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    /// Mixed values.
+    pub pair: PairLaw,
+    /// Where the two bodies touch.
+    pub geometry: ContactGeometry,
+    /// Velocity of the centre of i less that of j [m/s].
+    pub velocity: Vector,
+    /// Angular velocity of i [rad/s].
+    pub angular_i: Vector,
+    /// Angular velocity of j [rad/s].
+    pub angular_j: Vector,
+}
+
+impl Contact {
+    /// Overlap and normal velocity.
+    #[must_use]
+    pub fn approach(&self) -> Approach {
+        Approach {
+            overlap: self.geometry.overlap,
+            normal_velocity: -self.velocity.dot(&self.geometry.normal),
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Composition of laws into a contact model: normal, then tangential, then moments, then finish.
+
+use crate::Vector;
+
+use super::{Contact, MomentLaw, NormalLaw, NormalState, TangentialLaw, TangentialState};
+
+/// Force and moments of one contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Action {
+    /// Force on i [N]; its opposite acts on j.
+    pub force: Vector,
+    /// Torque on i [N m].
+    pub torque_i: Vector,
+    /// Torque on j [N m].
+    pub torque_j: Vector,
+    /// The normal state behind the force.
+    pub normal: NormalState,
+}
+
+/// A composed model: the only thing that the sweep over contacts calls.
+pub trait ContactModel: Copy + Send + Sync {
+    /// What one contact remembers.
+    type History: Copy + Default + Send + Sync;
+    /// What all contacts share.
+    type Shared: Clone + Default + Send + Sync;
+
+    /// Advances the shared state by `dt` [s] to `time` [s].
+    fn advance(&self, shared: &mut Self::Shared, time: f64, dt: f64);
+
+    /// Whether a contact lives at `overlap` [m].
+    fn alive(&self, overlap: f64, history: &Self::History) -> bool;
+
+    /// Largest gap across which the model acts [m].
+    fn reach(&self) -> f64;
+
+    /// Force and moments of a living contact over a step `dt` [s].
+    fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action;
+}
+
+/// Three laws that make a model.
+#[derive(Clone, Copy, Debug)]
+pub struct Composed<N, T, M> {
+    /// Force along the normal.
+    pub normal: N,
+    /// Force in the contact plane.
+    pub tangential: T,
+    /// Moments.
+    pub moments: M,
+}
+
+impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, T, M> {
+    type History = (N::History, T::History, M::History);
+    type Shared = N::Shared;
+
+    fn advance(&self, shared: &mut Self::Shared, time: f64, dt: f64) {
+        self.normal.advance(shared, time, dt);
+    }
+
+    fn alive(&self, overlap: f64, history: &Self::History) -> bool {
+        self.normal.alive(overlap, &history.0)
+    }
+
+    fn reach(&self) -> f64 {
+        self.normal.reach()
+    }
+
+    fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action {
+        let normal = self.normal.evaluate(&contact.pair, &contact.approach(), shared, &mut history.0);
+        let tangential = self.tangential.evaluate(contact, &normal, dt, &mut history.1);
+        let moment = self.moments.evaluate(contact, &normal, dt, &mut history.2);
+        let normal = self.normal.finish(normal, tangential.sliding, &mut history.0);
+        let direction = contact.geometry.normal;
+        let [arm_i, arm_j] = tangential.arms;
+        // The contact lies at -arm_i n from i and at +arm_j n from j; j feels the opposite force.
+        let twist = direction.cross(&tangential.force);
+        Action {
+            force: direction * normal.force + tangential.force,
+            torque_i: moment - twist * arm_i,
+            torque_j: -moment - twist * arm_j,
+            normal,
+        }
+    }
+}
+
+/// No force in the contact plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Frictionless;
+
+impl TangentialLaw for Frictionless {
+    type History = ();
+
+    fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> TangentialState {
+        TangentialState { force: Vector::zeros(), sliding: false, arms: [0.0; 2] }
+    }
+}
+
+/// No moments.
+#[derive(Clone, Copy, Debug)]
+pub struct Free;
+
+impl MomentLaw for Free {
+    type History = ();
+
+    fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> Vector {
+        Vector::zeros()
+    }
+}

@@ -1,0 +1,3 @@
+//! Laws of the force along the normal, one per file.
+
+pub mod hertz;

@@ -1,0 +1,53 @@
+//! Crossgrain: a discrete element code that is proved against other discrete element codes.
+//!
+//! # Conventions
+//!
+//! SI units and `f64` everywhere. Three dimensions.
+//!
+//! | what | sign |
+//! |---|---|
+//! | normal | unit vector from j to i; forces of a contact are on i |
+//! | overlap | positive in contact |
+//! | normal velocity | positive when approaching |
+//! | damping constants | positive |
+//!
+//! # Map
+//!
+//! | module | what |
+//! |---|---|
+//! | [`case`] | the case file (the schema) and its expansion into scenes |
+//! | [`material`] | materials and the only place of mixing rules |
+//! | [`particles`], [`bodies`] | what moves: particle columns, walls |
+//! | [`geometry`], [`laws`] | contact geometry and contact laws |
+//! | [`neighbors`], [`contacts`] | who may touch, and what contacts remember |
+//! | [`integrate`], [`simulation`] | one step |
+//! | [`observables`], [`record`] | what is measured and how it is written |
+//! | [`cli`] | the command `crossgrain` |
+//!
+//! # Determinism
+//!
+//! A run has the same bits for every number of threads: contacts write their own slots, particles gather them in a
+//! fixed order, and no floating-point sum depends on scheduling.
+
+/// A vector in three dimensions.
+pub type Vector = nalgebra::Vector3<f64>;
+
+pub mod bodies;
+pub mod case;
+pub mod cli;
+pub mod contacts;
+pub mod error;
+pub mod geometry;
+pub mod integrate;
+pub mod laws;
+pub mod material;
+pub mod neighbors;
+pub mod observables;
+pub mod particles;
+pub mod record;
+pub mod simulation;
+
+#[cfg(feature = "python")]
+mod python;
+
+pub use error::Error;

@@ -1,0 +1,3 @@
+//! What is measured during a run.
+
+pub mod energy;

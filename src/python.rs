@@ -1,0 +1,59 @@
+//! The Python module `crossgrain`: a thin mirror of the library.
+
+use pyo3::prelude::*;
+
+/// The native discrete element engine and the case schema.
+#[pymodule(name = "crossgrain")]
+mod module {
+    use std::ffi::OsString;
+    use std::path::PathBuf;
+
+    use pyo3::exceptions::PyValueError;
+    use pyo3::prelude::*;
+
+    use crate::{Error, case, cli, simulation};
+
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "the name that Python gives to versions")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[expect(clippy::needless_pass_by_value, reason = "the signature of map_err")]
+    fn raise(error: Error) -> PyErr {
+        PyValueError::new_err(error.to_string())
+    }
+
+    /// Reads, checks and expands a case file: JSON with the keys `case`, `variants` and `scenes`.
+    #[pyfunction]
+    #[pyo3(signature = (path, overrides = Vec::new()))]
+    fn load_case(path: PathBuf, overrides: Vec<String>) -> PyResult<String> {
+        let loaded = case::read(&path, &overrides).and_then(case::Stated::load).map_err(raise)?;
+        serde_json::to_string(&loaded).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// Reads and checks a case file without asking whether this build can run it: JSON of the case.
+    #[pyfunction]
+    fn read_case(path: PathBuf) -> PyResult<String> {
+        let stated = case::read(&path, &[]).map_err(raise)?;
+        serde_json::to_string(&stated.case).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// The JSON schema of the case file.
+    #[pyfunction]
+    fn schema() -> String {
+        case::json_schema().to_string()
+    }
+
+    /// Runs a scene given as JSON and writes its record into the folder `out`.
+    #[pyfunction]
+    #[pyo3(signature = (scene, out, threads = 1))]
+    fn run_scene(py: Python<'_>, scene: &str, out: PathBuf, threads: usize) -> PyResult<()> {
+        let scene = cli::parse_scene("scene", scene).map_err(raise)?;
+        py.detach(|| simulation::run(&scene, threads, &|_| {})?.write(&out)).map_err(raise)
+    }
+
+    /// Runs the command line `crossgrain ARGUMENTS` and returns its exit code.
+    #[pyfunction]
+    fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+        py.detach(|| cli::run(std::iter::once(OsString::from("crossgrain")).chain(arguments)))
+    }
+}

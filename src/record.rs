@@ -1,0 +1,166 @@
+//! Run records: `record.json` and `columns.npz` (docs/formats.md).
+
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path::Path;
+use std::time::Instant;
+
+use npyz::WriterBuilder;
+use npyz::npz::NpzWriter;
+use npyz::zip::write::FileOptions;
+use serde_json::json;
+
+use crate::Vector;
+use crate::bodies::Body;
+use crate::case::scene::{Scene, Start};
+use crate::error::Error;
+use crate::observables::energy::Ledger;
+use crate::particles::Particles;
+
+/// The version of the record format.
+pub const SCHEMA: u32 = 1;
+
+/// One column of a record: unit, shape of one sample, values.
+struct Column {
+    name: &'static str,
+    unit: &'static str,
+    shape: Vec<u64>,
+    values: Vec<f64>,
+}
+
+/// Collects samples of a run and writes them.
+pub struct Recorder {
+    header: serde_json::Value,
+    started: Instant,
+    time_step: f64,
+    steps: Vec<i64>,
+    columns: Vec<Column>,
+}
+
+impl Recorder {
+    /// A recorder for `scene`, with no samples.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let (particles, bodies) = (scene.particles.len() as u64, scene.bodies.len() as u64);
+        let column = |name, unit, shape: &[u64]| Column { name, unit, shape: shape.to_vec(), values: Vec::new() };
+        let mut columns = vec![
+            column("time", "s", &[]),
+            column("position", "m", &[particles, 3]),
+            column("velocity", "m/s", &[particles, 3]),
+            column("angular_velocity", "rad/s", &[particles, 3]),
+            column("force", "N", &[particles, 3]),
+            column("torque", "N m", &[particles, 3]),
+            column("body_force", "N", &[bodies, 3]),
+        ];
+        let energies =
+            ["energy_kinetic", "energy_elastic", "energy_gravity", "energy_viscous", "energy_body_work", "energy_entered"];
+        columns.extend(energies.map(|name| column(name, "J", &[])));
+        let mut header = header(scene);
+        header["columns"]["step"] = json!("-");
+        for column in &columns {
+            header["columns"][column.name] = json!(column.unit);
+        }
+        Self {
+            header,
+            started: Instant::now(),
+            time_step: scene.time_step,
+            steps: Vec::new(),
+            columns,
+        }
+    }
+
+    /// Adds a sample.
+    pub fn sample(&mut self, step: u64, particles: &Particles, bodies: &[Body], ledger: &Ledger) {
+        let flat = |vectors: &[Vector]| vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<f64>>();
+        let forces: Vec<Vector> = bodies.iter().map(|body| body.force).collect();
+        let rows = [
+            vec![step as f64 * self.time_step],
+            flat(&particles.position),
+            flat(&particles.velocity),
+            flat(&particles.angular_velocity),
+            flat(&particles.force),
+            flat(&particles.torque),
+            flat(&forces),
+            vec![ledger.kinetic],
+            vec![ledger.elastic],
+            vec![ledger.gravity],
+            vec![ledger.viscous],
+            vec![ledger.body_work],
+            vec![ledger.entered],
+        ];
+        self.steps.push(i64::try_from(step).unwrap_or(i64::MAX));
+        for (column, row) in self.columns.iter_mut().zip(rows) {
+            column.values.extend(row);
+        }
+    }
+
+    /// Writes the record into `folder`.
+    ///
+    /// # Errors
+    /// The folder or its files cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        let failed = |reason| Error::Write { file: folder.to_owned(), reason };
+        fs::create_dir_all(folder).map_err(failed)?;
+        self.write_columns(&folder.join("columns.npz")).map_err(failed)?;
+        let mut header = self.header.clone();
+        header["wall_time"] = json!(self.started.elapsed().as_secs_f64());
+        let text = serde_json::to_string_pretty(&header).map_err(|error| failed(error.into()))?;
+        fs::write(folder.join("record.json"), text + "\n").map_err(failed)
+    }
+
+    fn write_columns(&self, path: &Path) -> std::io::Result<()> {
+        let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
+        let samples = self.steps.len() as u64;
+        let mut steps = archive
+            .array("step", FileOptions::default())?
+            .default_dtype()
+            .shape(&[samples])
+            .begin_nd()?;
+        steps.extend(self.steps.iter().copied())?;
+        steps.finish()?;
+        for column in &self.columns {
+            let shape: Vec<u64> = std::iter::once(samples).chain(column.shape.iter().copied()).collect();
+            let mut writer =
+                archive.array(column.name, FileOptions::default())?.default_dtype().shape(&shape).begin_nd()?;
+            writer.extend(column.values.iter().copied())?;
+            writer.finish()?;
+        }
+        Ok(())
+    }
+
+    /// Values of the last sample of a column, for summaries.
+    #[must_use]
+    pub fn last(&self, name: &str) -> Option<f64> {
+        self.columns.iter().find(|column| column.name == name)?.values.last().copied()
+    }
+
+    /// All values of a column in one row.
+    #[must_use]
+    pub fn values(&self, name: &str) -> &[f64] {
+        self.columns.iter().find(|column| column.name == name).map_or(&[], |column| &column.values)
+    }
+}
+
+fn header(scene: &Scene) -> serde_json::Value {
+    json!({
+        "schema": SCHEMA,
+        "source": "native",
+        "case": scene.case,
+        "variant": scene.variant,
+        "seed": scene.seed,
+        "refinement": scene.refinement,
+        "code": {"name": "crossgrain", "version": env!("CARGO_PKG_VERSION"), "package": "crossgrain"},
+        "deck_hash": "",
+        "machine": std::env::consts::ARCH,
+        "wall_time": 0.0,
+        "time_step": scene.time_step,
+        "steps": scene.steps,
+        "velocity_time": match scene.mirror.start { Start::Synchronized => "synchronized", Start::Staggered => "half_step" },
+        "contact_force": "exact",
+        "mass": scene.particles.iter().map(|particle| particle.mass).collect::<Vec<_>>(),
+        "radius": scene.particles.iter().map(|particle| particle.radius).collect::<Vec<_>>(),
+        "gravity": scene.gravity,
+        "bodies": scene.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
+        "columns": {},
+    })
+}
