@@ -32,7 +32,7 @@ def native_key(scene: Scene) -> str:
 
 def code_key(deck: Deck, code: Code) -> str:
     """Key of an external run: the deck, the program, and the sources of the harness that run and read it."""
-    sources = sorted((PACKAGE / "adapters").rglob("*.py")) + [PACKAGE / "record.py"]
+    sources = [*sorted((PACKAGE / "adapters").rglob("*.py")), PACKAGE / "record.py"]
     return _digest(deck.code, deck.hash, code.version, code.package, *(path.read_text() for path in sources))
 
 
@@ -59,8 +59,8 @@ class Cache:
             shutil.rmtree(folder, ignore_errors=True)
             return None
 
-    def put(self, key: str, record: RunRecord) -> None:
-        """Stores a record: written beside its place and then renamed, so that no reader sees half of it."""
+    def put(self, key: str, record: RunRecord) -> Path:
+        """Stores a record and returns its folder: written beside its place and then renamed, never seen half."""
         target = self.folder(key)
         target.parent.mkdir(parents=True, exist_ok=True)
         scratch = Path(tempfile.mkdtemp(prefix="new-", dir=target.parent))
@@ -69,3 +69,4 @@ class Cache:
             scratch.rename(target)
         except OSError:  # another run was faster: its record is the same
             shutil.rmtree(scratch, ignore_errors=True)
+        return target

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import platform
+import shutil
 import sys
 import time
 from collections.abc import Iterable
@@ -124,8 +126,8 @@ def keep(finished: Finished, folder: Path) -> None:
     for name, outcomes in finished.results.items():
         for (source, refinement), outcome in outcomes.items():
             place = Path("runs") / name / f"{source}-{refinement}"
-            if outcome.record is not None:
-                outcome.record.write(folder / place, compress=False)
+            if outcome.folder is not None:
+                _link(outcome.folder, folder / place)
             if outcome.deck is not None:
                 write_deck(outcome.deck, folder / place)
             entries.append(
@@ -148,6 +150,18 @@ def keep(finished: Finished, folder: Path) -> None:
         "outcomes": entries,
     }
     (folder / INDEX).write_text(json.dumps(index, indent=1) + "\n")
+
+
+def _link(source: Path, target: Path) -> None:
+    """Puts the files of a record into another folder, without a second copy where the file system allows that."""
+    target.mkdir(parents=True, exist_ok=True)
+    for path in source.iterdir():
+        place = target / path.name
+        place.unlink(missing_ok=True)
+        try:
+            os.link(path, place)
+        except OSError:
+            shutil.copy2(path, place)
 
 
 def load(folder: Path) -> Finished:
@@ -182,8 +196,9 @@ def _reload(entry: dict[str, str | None], source: str, scene: Scene, folder: Pat
     for code, other in ADAPTERS.items():
         if source == f"native[{code}]" and entry["folder"] is not None:
             scene = other.mirror(scene)
-    record = None if entry["folder"] is None else read(folder / entry["folder"])
-    return Outcome(source, scene, record, entry["verdict"] or "", entry["origin"] or "", deck)
+    place = None if entry["folder"] is None else folder / entry["folder"]
+    record = None if place is None else runs.labelled(read(place), source)
+    return Outcome(source, scene, record, entry["verdict"] or "", entry["origin"] or "", deck, place)
 
 
 def write_deck(deck: Deck, folder: Path) -> None:
@@ -194,7 +209,6 @@ def write_deck(deck: Deck, folder: Path) -> None:
     rows = [asdict(row) for row in deck.translation]
     sheet = {"code": deck.code, "scene": deck.scene.name, "hash": deck.hash, "main": deck.main, "rows": rows}
     (folder / "translation.json").write_text(json.dumps(sheet, indent=1) + "\n")
-
 
 
 def unexpected(verdicts: Iterable[Comparison]) -> list[Comparison]:

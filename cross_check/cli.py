@@ -117,9 +117,7 @@ def deck_(case: str, code: str, out: Path, overrides: tuple[str, ...]) -> None:
 @click.option("--any-version", is_flag=True, help="Runs versions for which the translation is not proved, too.")
 @click.option("--time-limit", type=float, default=300.0, show_default=True, help="Seconds per deck.")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("out"), show_default=True, help="Output folder.")
-def run_(  # noqa: PLR0913
-    what: str, codes: str, jobs: int | None, live: bool, any_version: bool, time_limit: float, out: Path
-) -> None:
+def run_(what: str, codes: str, jobs: int | None, live: bool, any_version: bool, time_limit: float, out: Path) -> None:
     """Runs a case or a suite natively and in every code, compares, and reports."""
     chosen = tuple(code.strip() for code in codes.split(",") if code.strip())
     unknown = [code for code in chosen if code not in ADAPTERS]
@@ -131,7 +129,10 @@ def run_(  # noqa: PLR0913
     with _refusing():
         suite, cases = suites.select(what)
         out.mkdir(parents=True, exist_ok=True)
-        with _progress(runs.count(cases, options)) as progress, tempfile.TemporaryDirectory(prefix="crossgrain-") as work:
+        with (
+            _progress(runs.count(cases, options)) as progress,
+            tempfile.TemporaryDirectory(prefix="crossgrain-") as work,
+        ):
             finished = campaign.run(suite, cases, options, Path(work), progress)
         campaign.keep(finished, out)
         _conclude(finished, out)

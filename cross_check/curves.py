@@ -32,9 +32,7 @@ def curves(name: str, outcomes: Outcomes, codes: tuple[str, ...]) -> Iterator[Cu
         return
     for title, x_label, x_unit in (("Force over time", "time", "s"), ("Force over overlap", "overlap", "m")):
         lines = [_line(source, *found[source], x_label) for source in (NATIVE, *codes) if source in found]
-        residuals = [
-            _residual(code, found, x_label) for code in codes if code in found and mirror_name(code) in found
-        ]
+        residuals = [_residual(code, found, x_label) for code in codes if code in found and mirror_name(code) in found]
         yield CurveSet(
             case=name,
             title=title,
@@ -92,9 +90,7 @@ def _others(points: tuple[Point, ...], axis: str) -> str:
     return ", ".join(point.label for point in points if point.axis != axis)
 
 
-def _sweep(
-    case: Case, gate: Gate, axis: str, other: str, results: Results, codes: tuple[str, ...]
-) -> SweepPlot | None:
+def _sweep(case: Case, gate: Gate, axis: str, other: str, results: Results, codes: tuple[str, ...]) -> SweepPlot | None:
     formula, form = QUANTITIES[gate.quantity].scalar, reference.closed_forms().get(gate.reference or "")
     if formula is None or form is None:
         return None

@@ -11,7 +11,7 @@ from typing import Any
 from cross_check import engine
 from cross_check.adapters import ADAPTERS
 
-PYTHON_PARTS = ("numpy", "scipy", "matplotlib", "jinja2", "junitparser", "rich", "click", "platformdirs")
+PYTHON_PARTS = ("numpy", "scipy", "matplotlib", "jinja2", "rich", "click", "platformdirs")
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,9 @@ def examine() -> list[Part]:
             parts.append(Part(name, False, "", advice))
             continue
         proved = code.version in adapter.proved_versions
-        advice = "" if proved else f"the translation is proved for {', '.join(adapter.proved_versions)}; see --any-version"
+        advice = (
+            "" if proved else f"the translation is proved for {', '.join(adapter.proved_versions)}; see --any-version"
+        )
         parts.append(Part(name, True, f"{code.version} ({code.package})", advice))
     mpi = shutil.which("mpirun")
     parts.append(Part("mpi", mpi is not None, mpi or "", "" if mpi else "not needed: every run uses one process"))

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import crossgrain
-
 from cross_check.record import RecordError, RunRecord, read
 from cross_check.scene import Scene, from_json
 
@@ -72,8 +71,9 @@ class Case:
 
 
 def _gate(raw: dict[str, Any]) -> Gate:
-    order = raw["order"]
-    return Gate(**(raw | {"order": None if order is None else (float(order[0]), float(order[1]))}))
+    typed, order = dict(raw), raw["order"]
+    typed["order"] = None if order is None else (float(order[0]), float(order[1]))
+    return Gate(**typed)
 
 
 def load_case(path: Path, overrides: list[str] | None = None) -> Case:

@@ -108,7 +108,9 @@ class RunRecord:
         if samples == 0:
             raise RecordError(f"{where}: the record holds no samples")
         if int(self.step[-1]) != self.header.steps:
-            raise RecordError(f"{where}: the last sample is step {int(self.step[-1])}, the run has {self.header.steps} steps")
+            raise RecordError(
+                f"{where}: the last sample is step {int(self.step[-1])}, the run has {self.header.steps} steps"
+            )
         if np.any(np.diff(self.step) <= 0):
             raise RecordError(f"{where}: steps do not increase")
         for name, column in self.columns.items():
@@ -138,10 +140,11 @@ def read(folder: Path) -> RunRecord:
     """Reads and checks a record folder. Raises RecordError with the file and the reason."""
     path = folder / "record.json"
     try:
-        raw = json.loads(path.read_text())
+        raw: dict[str, Any] = json.loads(path.read_text())
         if raw.get("schema") != SCHEMA:
             raise RecordError(f"{path}: schema {raw.get('schema')!r}, this version reads schema {SCHEMA}")
-        header = Header(**(raw | {"code": Code(**raw["code"])}))
+        raw["code"] = Code(**raw["code"])
+        header = Header(**raw)
         with np.load(folder / "columns.npz") as data:
             columns = {name: data[name] for name in data.files}
     except RecordError:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from cross_check import PACKAGE
-from cross_check.record import RecordError, RunRecord, read
+from cross_check.record import RecordError, RunRecord
 
 FOLDER = PACKAGE.parent / "reference"
 
@@ -33,16 +33,10 @@ def closed_forms() -> dict[str, ClosedForm]:
     return forms
 
 
-def recorded(code: str, deck_hash: str, version: str | None) -> RunRecord | None:
-    """The recorded run of a deck, of the wanted version if one is given, or None."""
-    folder = FOLDER / "recorded" / code
-    if not folder.is_dir():
-        return None
-    for candidate in sorted(folder.iterdir(), reverse=True):
-        path = candidate / deck_hash
-        if (version is None or candidate.name == slug(version)) and (path / "record.json").is_file():
-            return read(path)
-    return None
+def recorded(code: str, deck_hash: str) -> Path | None:
+    """Folder of the recorded run of a deck by the newest recorded version of a code, or None."""
+    found = sorted((FOLDER / "recorded" / code).glob(f"*/{deck_hash}/record.json"))
+    return found[-1].parent if found else None
 
 
 def slug(version: str) -> str:

@@ -16,7 +16,7 @@ from cross_check.cache import Cache, code_key, native_key
 from cross_check.compare.outcome import NATIVE, Outcome, Outcomes, mirror_name
 from cross_check.compare.verdicts import not_comparable, not_run
 from cross_check.engine import Case, CaseError, Variant
-from cross_check.record import Code, RecordError, RunRecord
+from cross_check.record import Code, RecordError, RunRecord, read
 from cross_check.scene import Scene
 
 Progress = Callable[[str, int], None]
@@ -69,7 +69,11 @@ def execute(cases: list[Case], options: Options, cache: Cache, work: Path, progr
             for code in options.codes:
                 _plan(ADAPTERS[code], variant, results[name], native, external[code], progress)
     with ThreadPoolExecutor(options.jobs) as pool:
-        for job, outcome in zip(native, pool.map(lambda job: _native(job, options, cache, work), native), strict=True):
+
+        def run(job: _Job) -> Outcome:
+            return _native(job, options, cache, work)
+
+        for job, outcome in zip(native, pool.map(run, native), strict=True):
             results[job.variant][job.source, job.scene.refinement] = outcome
             progress(job.source, 1)
     for code, jobs in external.items():
@@ -101,17 +105,18 @@ def _plan(
 def _native(job: _Job, options: Options, cache: Cache, work: Path) -> Outcome:
     key = native_key(job.scene)
     if not options.live and (record := cache.get(key)) is not None:
-        return Outcome(job.source, job.scene, _labelled(record, job.source), origin="cache")
+        return Outcome(job.source, job.scene, labelled(record, job.source), origin="cache", folder=cache.folder(key))
     with tempfile.TemporaryDirectory(dir=work) as folder:
         try:
             record = engine.run(job.scene, Path(folder))
         except (CaseError, RecordError) as error:
             return Outcome(job.source, job.scene, None, not_run(str(error)), "not run")
-    cache.put(key, record)
-    return Outcome(job.source, job.scene, _labelled(record, job.source))
+    kept = cache.put(key, record)
+    return Outcome(job.source, job.scene, labelled(record, job.source), folder=kept)
 
 
-def _labelled(record: RunRecord, source: str) -> RunRecord:
+def labelled(record: RunRecord, source: str) -> RunRecord:
+    """The record under another source's name: mirrors that run the same scene share one record."""
     return replace(record, header=replace(record.header, source=source))
 
 
@@ -158,16 +163,19 @@ def _stored(job: _Job, code: Code | None, options: Options, cache: Cache) -> Out
     if job.deck is None or options.live:
         return None
     if code is not None:
-        record = cache.get(code_key(job.deck, code))
-        return None if record is None else Outcome(job.source, job.scene, record, origin="cache", deck=job.deck)
-    record = reference.recorded(job.source, job.deck.hash, None)
-    return None if record is None else Outcome(job.source, job.scene, record, origin="recorded", deck=job.deck)
+        key, origin = code_key(job.deck, code), "cache"
+        folder, record = cache.folder(key), cache.get(key)
+    else:
+        folder, origin = reference.recorded(job.source, job.deck.hash), "recorded"
+        record = None if folder is None else read(folder)
+    if record is None:
+        return None
+    return Outcome(job.source, job.scene, record, origin=origin, deck=job.deck, folder=folder)
 
 
 def _kept(job: _Job, result: RunRecord | RunFailed, code: Code | None, cache: Cache) -> Outcome:
     """The outcome of a finished run; its record goes into the cache."""
     if isinstance(result, RunFailed):
         return Outcome(job.source, job.scene, None, not_run(str(result)), "not run", job.deck)
-    if code is not None and job.deck is not None:
-        cache.put(code_key(job.deck, code), result)
-    return Outcome(job.source, job.scene, result, deck=job.deck)
+    folder = None if code is None or job.deck is None else cache.put(code_key(job.deck, code), result)
+    return Outcome(job.source, job.scene, result, deck=job.deck, folder=folder)

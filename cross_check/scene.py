@@ -153,36 +153,47 @@ def _vector(raw: list[float]) -> Vector:
     return (float(raw[0]), float(raw[1]), float(raw[2]))
 
 
+def _body(item: dict[str, Any]) -> Body:
+    shape, motion = item["shape"], item["motion"]
+    velocity = motion.get("velocity")
+    return Body(
+        name=item["name"],
+        material=item["material"],
+        shape=Shape(shape["kind"], _vector(shape["point"]), _vector(shape["normal"])),
+        motion=Motion(motion["kind"], None if velocity is None else _vector(velocity)),
+    )
+
+
+def _particle(item: dict[str, Any]) -> Particle:
+    return Particle(
+        material=item["material"],
+        radius=item["radius"],
+        mass=item["mass"],
+        moment_of_inertia=item["moment_of_inertia"],
+        position=_vector(item["position"]),
+        velocity=_vector(item["velocity"]),
+        angular_velocity=_vector(item["angular_velocity"]),
+    )
+
+
+def _pair(item: dict[str, Any]) -> Pair:
+    first, second = item["between"]
+    typed = dict(item)
+    typed["between"] = (int(first), int(second))
+    return Pair(**typed)
+
+
 def from_json(raw: dict[str, Any]) -> Scene:
     """The typed view of one scene object."""
-
-    def body(item: dict[str, Any]) -> Body:
-        shape, motion = item["shape"], item["motion"]
-        velocity = motion.get("velocity")
-        return Body(
-            item["name"],
-            item["material"],
-            Shape(shape["kind"], _vector(shape["point"]), _vector(shape["normal"])),
-            Motion(motion["kind"], None if velocity is None else _vector(velocity)),
-        )
-
-    def particle(item: dict[str, Any]) -> Particle:
-        vectors = {key: _vector(item[key]) for key in ("position", "velocity", "angular_velocity")}
-        return Particle(**(item | vectors))
-
-    domain = raw["domain"]
-    return Scene(
-        **(
-            raw
-            | {
-                "gravity": _vector(raw["gravity"]),
-                "domain": Domain(_vector(domain["min"]), _vector(domain["max"]), tuple(domain["boundary"])),
-                "materials": tuple(Material(**item) for item in raw["materials"]),
-                "pairs": tuple(Pair(**(item | {"between": tuple(item["between"])})) for item in raw["pairs"]),
-                "model": Model(NormalModel(**raw["model"]["normal"])),
-                "mirror": Mirror(**raw["mirror"]),
-                "bodies": tuple(body(item) for item in raw["bodies"]),
-                "particles": tuple(particle(item) for item in raw["particles"]),
-            }
-        )
-    )
+    x, y, z = raw["domain"]["boundary"]
+    typed: dict[str, Any] = {
+        "gravity": _vector(raw["gravity"]),
+        "domain": Domain(_vector(raw["domain"]["min"]), _vector(raw["domain"]["max"]), (x, y, z)),
+        "materials": tuple(Material(**item) for item in raw["materials"]),
+        "pairs": tuple(_pair(item) for item in raw["pairs"]),
+        "model": Model(NormalModel(**raw["model"]["normal"])),
+        "mirror": Mirror(**raw["mirror"]),
+        "bodies": tuple(_body(item) for item in raw["bodies"]),
+        "particles": tuple(_particle(item) for item in raw["particles"]),
+    }
+    return Scene(**{**raw, **typed})

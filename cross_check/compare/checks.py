@@ -71,7 +71,9 @@ class Bench:
         uncertainty, kind = (None, "none") if value is None else self.uncertainty(source)
         return Side(source, value, uncertainty, kind, recorded=outcome.origin == "recorded")
 
-    def comparison(self, left: Side, right: Side, discrepancy: float | None, verdict: str, note: str = "") -> Comparison:
+    def comparison(
+        self, left: Side, right: Side, discrepancy: float | None, verdict: str, note: str = ""
+    ) -> Comparison:
         """A line of verdicts.json whose expectation is still open."""
         return Comparison(
             case=self.scene.name,
@@ -191,7 +193,9 @@ def _difference(bench: Bench, left: str, right: str) -> tuple[Side, Side, float]
 
 def _missing(bench: Bench, *sources: str) -> str | None:
     """Why one of the sources has no record, or None."""
-    return next((bench.outcomes[source, 0].verdict for source in sources if bench.outcomes[source, 0].record is None), None)
+    return next(
+        (bench.outcomes[source, 0].verdict for source in sources if bench.outcomes[source, 0].record is None), None
+    )
 
 
 def _mirrors(bench: Bench) -> Iterator[Comparison]:

@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 import functools
-import sys
 from typing import Any
 
-from cross_check import PACKAGE
+from cross_check import PACKAGE, toml_file
 from cross_check.scene import Scene
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 
 class UnknownDifference(Exception):
@@ -22,7 +16,7 @@ class UnknownDifference(Exception):
 @functools.cache
 def known() -> dict[str, dict[str, Any]]:
     """The table of known differences by identifier: `option`, `law_term`, `explanation`, `codes`."""
-    return tomllib.loads((PACKAGE / "known_differences.toml").read_text())
+    return toml_file.read(PACKAGE / "known_differences.toml")
 
 
 def _cut(scene: Scene) -> bool:

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-from cross_check import PACKAGE
+from cross_check import PACKAGE, toml_file
 from cross_check.compare.verdicts import DIFFER, Comparison, Side, not_run
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 
 class ExpectationError(Exception):
@@ -52,9 +46,8 @@ class Rule:
 def rules(path: Path = PACKAGE / "expected_verdicts.toml") -> list[Rule]:
     """The rules of a table, in order. Raises ExpectationError."""
     try:
-        entries = tomllib.loads(path.read_text())["expect"]
-        return [Rule(**entry) for entry in entries]
-    except (OSError, KeyError, TypeError, tomllib.TOMLDecodeError) as error:
+        return [Rule(**entry) for entry in toml_file.read(path)["expect"]]
+    except (toml_file.TomlError, KeyError, TypeError) as error:
         names = ", ".join(field.name for field in fields(Rule))
         raise ExpectationError(f"{path}: {error} (a rule has the keys {names})") from error
 
@@ -78,7 +71,11 @@ def expect(comparisons: Iterable[Comparison], table: list[Rule], cases: set[str]
         else:
             judged.append(replace(item, expected="agree"))
     if complete:
-        judged += [_miscounted(rule, n) for rule, n in zip(table, covered, strict=True) if _case(rule) in cases and n != rule.count]
+        judged += [
+            _miscounted(rule, n)
+            for rule, n in zip(table, covered, strict=True)
+            if _case(rule) in cases and n != rule.count
+        ]
     return judged
 
 
@@ -98,7 +95,7 @@ def _miscounted(rule: Rule, count: int) -> Comparison:
         discrepancy=abs(float(count - rule.count)),
         scale="absolute",
         bound=0.0,
-        bound_source=f"rule for {rule.case}, {rule.check}, {rule.quantity}, {rule.left} vs {rule.right}: {rule.verdict}",
+        bound_source=f"rule {rule.case}, {rule.check}, {rule.quantity}, {rule.left} vs {rule.right}: {rule.verdict}",
         verdict=DIFFER if count else not_run("no comparison matches the rule"),
         expected="agree",
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from cross_check.adapters.interface import Deck
 from cross_check.record import RunRecord
@@ -22,6 +23,7 @@ class Outcome:
 
     `verdict` is empty where there is a record, else `not-comparable(...)` or `not-run(...)`. `origin` is `live`,
     `cache`, `recorded` or `not run`. `scene` is the scene that this source ran: a mirror's differs in its options.
+    `folder` holds the record, under the source name of whoever ran it first.
     """
 
     source: str
@@ -30,6 +32,7 @@ class Outcome:
     verdict: str = ""
     origin: str = "live"
     deck: Deck | None = None
+    folder: Path | None = None
     note: str = ""
 
 

@@ -88,9 +88,12 @@ def peak_force(scene: Scene, record: RunRecord) -> float:
     top = int(np.argmax(found.force))
     if top in (0, len(found.force) - 1):
         raise Undefined("the largest force is at the first or last sample")
-    time = found.time[top - 1 : top + 2] - found.time[top]
-    c, b, a = np.polynomial.polynomial.polyfit(time / time[2], found.force[top - 1 : top + 2], 2)
-    return float(c - b * b / (4.0 * a)) if a < 0.0 else float(found.force[top])
+    before, after = found.time[top] - found.time[top - 1], found.time[top + 1] - found.time[top]
+    rise = float((found.force[top] - found.force[top - 1]) / before)
+    fall = float((found.force[top + 1] - found.force[top]) / after)
+    curvature = (fall - rise) / (before + after)
+    slope = (rise * after + fall * before) / (before + after)
+    return float(found.force[top]) - (0.25 * slope * slope / curvature if curvature < 0.0 else 0.0)
 
 
 def contact_duration(scene: Scene, record: RunRecord) -> float:

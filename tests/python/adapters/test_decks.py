@@ -46,8 +46,7 @@ def test_deck_prints_its_translation(code: str, whole: Scene) -> None:
 
 
 @pytest.mark.parametrize("code", list(ADAPTERS))
-def test_deck_has_no_line_that_a_reader_must_scroll_for(code: str) -> None:
-    """Commands may be long where the code has no continuation; comments may not."""
+def test_deck_has_no_tabs_and_no_blanks_at_line_ends(code: str) -> None:
     deck = ADAPTERS[code].deck(scenes.floor())
     for line in deck.files[deck.main].splitlines():
         assert not line.endswith(" ")
