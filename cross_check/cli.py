@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import NoReturn
@@ -31,7 +31,7 @@ def _fail(message: object) -> NoReturn:
 
 
 @contextmanager
-def _refusing() -> Iterator[None]:
+def _refusing() -> Generator[None]:
     """Turns every foreseen error into one line and the exit code of bad input."""
     try:
         yield
@@ -172,7 +172,7 @@ def record_(what: str) -> None:
 
 
 @contextmanager
-def _progress(total: int) -> Iterator[runs.Progress]:
+def _progress(total: int) -> Generator[runs.Progress]:
     """A bar on a terminal, one JSON line per tenth of the runs elsewhere."""
     if sys.stderr.isatty():
         columns = (TextColumn("{task.description:18}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
