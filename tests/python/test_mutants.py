@@ -1,0 +1,117 @@
+"""Planted faults: each file of tests/mutants breaks one thing, and a named verdict must turn red for it."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from cross_check import toml_file
+from cross_check.adapters import ADAPTERS
+from cross_check.adapters.interface import Deck
+from cross_check.cli import UNEXPECTED, main
+from cross_check.compare.outcome import mirror_name
+from cross_check.scene import Scene
+
+ROOT = Path(__file__).parents[2]
+MUTANTS = {path.stem: toml_file.read(path) for path in sorted((ROOT / "tests" / "mutants").glob("*.toml"))}
+BUILD = ROOT / "target" / "mutants"
+
+engine_mutants = [name for name, mutant in MUTANTS.items() if "file" in mutant]
+deck_mutants = [name for name, mutant in MUTANTS.items() if "code" in mutant]
+
+
+def mutated(text: str, mutant: dict[str, Any]) -> str:
+    """The text with its fault; what is to be broken must stand there exactly once."""
+    assert text.count(mutant["find"]) == 1, f"{mutant['find']!r} stands {text.count(mutant['find'])} times"
+    return text.replace(mutant["find"], mutant["replace"])
+
+
+def assert_red(folder: Path, wanted: dict[str, str]) -> None:
+    """The named verdict is there and is not the expected one."""
+    verdicts = json.loads((folder / "verdicts.json").read_text())
+    named = [
+        item
+        for item in verdicts
+        if item["case"].partition("/")[0] == wanted["case"]
+        and item["quantity"] == wanted["quantity"]
+        and item["left"]["source"] == wanted["left"]
+        and item["right"]["source"] == wanted["right"]
+    ]
+    assert named
+    assert any(item["verdict"] == "differ" and item["expected"] != "differ" for item in named)
+
+
+@pytest.fixture(scope="module")
+def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the engine's sources, and a build folder that starts from what is built already."""
+    folder = tmp_path_factory.mktemp("engine")
+    for name in ("Cargo.toml", "Cargo.lock", "README.md"):
+        shutil.copy2(ROOT / name, folder / name)
+    shutil.copytree(ROOT / "src", folder / "src")
+    release = ROOT / "target" / "release"
+    if release.is_dir() and not BUILD.is_dir():
+        BUILD.mkdir()
+        shutil.copytree(release, BUILD / "release", copy_function=os.link, ignore=shutil.ignore_patterns("*crossgrain*"))
+    return folder
+
+
+def build(sources: Path, name: str, mutant: dict[str, Any], folder: Path) -> Path:
+    """The command `crossgrain` of an engine with one fault."""
+    path = sources / mutant["file"]
+    sound = path.read_text()
+    path.write_text(mutated(sound, mutant))
+    try:
+        command = ["cargo", "build", "--release", "--quiet", "--bin", "crossgrain"]
+        environment = os.environ | {"CARGO_TARGET_DIR": str(BUILD), "RUSTFLAGS": os.environ.get("RUSTFLAGS", "")}
+        subprocess.run(command, cwd=sources, env=environment, check=True, timeout=900)
+    finally:
+        path.write_text(sound)
+    return Path(shutil.copy2(BUILD / "release" / "crossgrain", folder / f"crossgrain-{name}"))
+
+
+@pytest.mark.skipif(shutil.which("cargo") is None, reason="cargo is not installed")
+@pytest.mark.parametrize("name", engine_mutants)
+def test_a_fault_of_the_engine_turns_its_verdict_red(name: str, sources: Path, tmp_path: Path) -> None:
+    mutant = MUTANTS[name]
+    program = build(sources, name, mutant, tmp_path)
+    codes = [code for code in ADAPTERS if mirror_name(code) == mutant["must_turn_red"]["left"]]
+    command = [str(Path(sys.executable).with_name("cross-check")), "run", mutant["must_turn_red"]["case"]]
+    command += ["--codes", ",".join(codes), "--out", str(tmp_path / "out")]
+    environment = os.environ | {"CROSSGRAIN_NATIVE": str(program), "CROSSGRAIN_CACHE": str(tmp_path / "cache")}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600, check=False)
+    assert done.returncode == UNEXPECTED, done.stderr
+    assert_red(tmp_path / "out", mutant["must_turn_red"])
+
+
+@pytest.mark.parametrize("name", deck_mutants)
+def test_a_fault_of_a_deck_turns_its_verdict_red(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    mutant = MUTANTS[name]
+    adapter = ADAPTERS[mutant["code"]]
+    if adapter.installed() is None:
+        pytest.skip(f"{mutant['code']} is not installed")
+    translate, touched = adapter.deck, list[str]()
+
+    def faulty(scene: Scene) -> Deck:
+        deck = translate(scene)
+        text = deck.files[deck.main]
+        if mutant["find"] in text:
+            touched.append(scene.name)
+            text = mutated(text, mutant)
+        return dataclasses.replace(deck, files=deck.files | {deck.main: text})
+
+    monkeypatch.setattr(adapter, "deck", faulty)
+    monkeypatch.setenv("CROSSGRAIN_CACHE", str(tmp_path / "cache"))
+    command = ["run", mutant["must_turn_red"]["case"], "--codes", mutant["code"], "--out", str(tmp_path / "out")]
+    done = CliRunner().invoke(main, command)
+    assert touched
+    assert done.exit_code == UNEXPECTED, done.output
+    assert_red(tmp_path / "out", mutant["must_turn_red"])
