@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from cross_check import PACKAGE
-from cross_check.record import RecordError, RunRecord
+from cross_check.record import RecordError, RunRecord, read
 
 FOLDER = PACKAGE.parent / "reference"
 
@@ -62,8 +62,16 @@ def thin(record: RunRecord, samples: int = 200) -> RunRecord:
 
 
 def store(record: RunRecord, code: str) -> Path:
-    """Writes a thinned record into `reference/recorded` and returns its folder."""
-    header = record.header
+    """Writes a thinned record into `reference/recorded` and returns its folder.
+
+    A stored record with the same columns stays as it is: only what changed is a diff to review.
+    """
+    header, thinned = record.header, thin(record)
     folder = FOLDER / "recorded" / code / slug(header.code.version) / header.deck_hash
-    thin(record).write(folder)
+    if (folder / "record.json").is_file():
+        stored = read(folder)
+        same = stored.columns.keys() == thinned.columns.keys()
+        if same and all(np.array_equal(stored[name], column) for name, column in thinned.columns.items()):
+            return folder
+    thinned.write(folder)
     return folder

@@ -60,7 +60,9 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
     release = ROOT / "target" / "release"
     if release.is_dir() and not BUILD.is_dir():
         BUILD.mkdir()
-        shutil.copytree(release, BUILD / "release", copy_function=os.link, ignore=shutil.ignore_patterns("*crossgrain*"))
+        shutil.copytree(
+            release, BUILD / "release", copy_function=os.link, ignore=shutil.ignore_patterns("*crossgrain*")
+        )
     return folder
 
 
