@@ -51,8 +51,8 @@ def run(suite: str, cases: list[Case], options: runs.Options, work: Path, progre
     return Finished(suite, cases, results, options.codes, started, time.monotonic() - clock)
 
 
-def comparisons(finished: Finished) -> list[Comparison]:
-    """All comparisons of all gates, with their expected verdicts."""
+def comparisons(finished: Finished, expected: Path | None = None) -> list[Comparison]:
+    """All comparisons of all gates, with the verdicts that `expected` (or the package's table) expects."""
     found: list[Comparison] = []
     for case in finished.cases:
         for variant in case.variants:
@@ -60,12 +60,13 @@ def comparisons(finished: Finished) -> list[Comparison]:
             for gate in case.gates:
                 found += compare(variant.scenes[0], gate, outcomes, finished.codes)
     complete = finished.codes == tuple(ADAPTERS)
-    return expect(found, rules(), {case.name for case in finished.cases}, complete)
+    table = rules() if expected is None else rules(expected)
+    return expect(found, table, {case.name for case in finished.cases}, complete)
 
 
-def write(finished: Finished, folder: Path) -> tuple[Path, list[Comparison]]:
+def write(finished: Finished, folder: Path, expected: Path | None = None) -> tuple[Path, list[Comparison]]:
     """Writes verdicts, JUnit and the report into `folder`; returns the page and the comparisons."""
-    verdicts = comparisons(finished)
+    verdicts = comparisons(finished, expected)
     outcomes = [outcome for group in finished.results.values() for outcome in group.values()]
     page = report.write(
         folder,

@@ -106,7 +106,7 @@ def deck_(case: str, code: str, out: Path, overrides: tuple[str, ...]) -> None:
         click.echo(reason, err=True)
     if written == 0:
         _fail(f"{code} has no form for {case}")
-    click.echo(f"{written} decks in {out}")
+    click.echo(f"{written} {'deck' if written == 1 else 'decks'} in {out}")
 
 
 @main.command("run")
@@ -115,9 +115,19 @@ def deck_(case: str, code: str, out: Path, overrides: tuple[str, ...]) -> None:
 @click.option("--jobs", type=click.IntRange(min=1), default=None, help="Runs at a time; the number of cores if absent.")
 @click.option("--live", is_flag=True, help="Makes every run now: neither the cache nor recorded runs are used.")
 @click.option("--any-version", is_flag=True, help="Runs versions for which the translation is not proved, too.")
+@click.option("--expected", type=click.Path(path_type=Path), default=None, help="Expected verdicts of own cases.")
 @click.option("--time-limit", type=float, default=300.0, show_default=True, help="Seconds per deck.")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("out"), show_default=True, help="Output folder.")
-def run_(what: str, codes: str, jobs: int | None, live: bool, any_version: bool, time_limit: float, out: Path) -> None:
+def run_(
+    what: str,
+    codes: str,
+    jobs: int | None,
+    live: bool,
+    any_version: bool,
+    expected: Path | None,
+    time_limit: float,
+    out: Path,
+) -> None:
     """Runs a case or a suite natively and in every code, compares, and reports."""
     chosen = tuple(code.strip() for code in codes.split(",") if code.strip())
     unknown = [code for code in chosen if code not in ADAPTERS]
@@ -135,7 +145,7 @@ def run_(what: str, codes: str, jobs: int | None, live: bool, any_version: bool,
         ):
             finished = campaign.run(suite, cases, options, Path(work), progress)
         campaign.keep(finished, out)
-        _conclude(finished, out)
+        _conclude(finished, out, expected)
 
 
 @main.command("compare")
@@ -191,9 +201,11 @@ def _progress(total: int) -> Generator[runs.Progress]:
     yield tell
 
 
-def _conclude(finished: campaign.Finished, out: Path) -> NoReturn:
+def _conclude(finished: campaign.Finished, out: Path, expected: Path | None = None) -> NoReturn:
     """Reports, says the result in one line, and leaves with the exit code of the contract."""
-    page, verdicts = campaign.write(finished, out)
+    page, verdicts = campaign.write(finished, out, expected)
+    if not verdicts:
+        _fail(f"nothing was compared: the cases state no gate for the sources {', '.join(('native', *finished.codes))}")
     wrong = campaign.unexpected(verdicts)
     for item in wrong:
         click.echo(

@@ -52,8 +52,9 @@ Results = dict[str, Outcomes]
 
 def count(cases: list[Case], options: Options) -> int:
     """Number of runs that `execute` will report."""
-    per_scene = 1 + len(options.codes)
-    return sum(len(variant.scenes) * per_scene + len(options.codes) for case in cases for variant in case.variants)
+    sources = 1 + len(options.codes)
+    counts = (len(refined(case, variant)) for case in cases for variant in case.variants)
+    return sum(scenes * sources + len(options.codes) for scenes in counts)
 
 
 def execute(cases: list[Case], options: Options, cache: Cache, work: Path, progress: Progress) -> Results:
@@ -65,9 +66,10 @@ def execute(cases: list[Case], options: Options, cache: Cache, work: Path, progr
         for variant in case.variants:
             name = variant.scenes[0].name
             results[name] = {}
-            native += [_Job(name, NATIVE, scene) for scene in variant.scenes]
+            scenes = refined(case, variant)
+            native += [_Job(name, NATIVE, scene) for scene in scenes]
             for code in options.codes:
-                _plan(ADAPTERS[code], variant, results[name], native, external[code], progress)
+                _plan(ADAPTERS[code], scenes, results[name], native, external[code], progress)
     with ThreadPoolExecutor(options.jobs) as pool:
 
         def run(job: _Job) -> Outcome:
@@ -82,24 +84,35 @@ def execute(cases: list[Case], options: Options, cache: Cache, work: Path, progr
     return results
 
 
+def refined(case: Case, variant: Variant) -> tuple[Scene, ...]:
+    """The scenes of a variant that a gate looks at: refinements serve closed forms and convergence only."""
+    wanted = any(gate.check in ("reference", "convergence") for gate in case.gates)
+    return variant.scenes if wanted else variant.scenes[:1]
+
+
 def _plan(
-    adapter: Adapter, variant: Variant, outcomes: Outcomes, native: list[_Job], external: list[_Job], progress: Progress
+    adapter: Adapter,
+    scenes: tuple[Scene, ...],
+    outcomes: Outcomes,
+    native: list[_Job],
+    external: list[_Job],
+    progress: Progress,
 ) -> None:
     """Adds the runs of one code and of its mirror, or the outcomes that say why there are none."""
-    name, code, mirror = variant.scenes[0].name, adapter.name, mirror_name(adapter.name)
+    name, code, mirror = scenes[0].name, adapter.name, mirror_name(adapter.name)
     try:
-        deck = adapter.deck(variant.scenes[0])
+        deck = adapter.deck(scenes[0])
     except InvalidScene as error:
         raise CaseError(f"{name}: {error}") from error
     except NotComparable as reason:
         verdict = not_comparable(str(reason))
-        for source, scenes in ((code, variant.scenes[:1]), (mirror, variant.scenes)):
-            for scene in scenes:
+        for source, missing in ((code, scenes[:1]), (mirror, scenes)):
+            for scene in missing:
                 outcomes[source, scene.refinement] = Outcome(source, scene, None, verdict, "not run")
                 progress(source, 1)
         return
-    external.append(_Job(name, code, variant.scenes[0], deck))
-    native += [_Job(name, mirror, adapter.mirror(scene)) for scene in variant.scenes]
+    external.append(_Job(name, code, scenes[0], deck))
+    native += [_Job(name, mirror, adapter.mirror(scene)) for scene in scenes]
 
 
 def _native(job: _Job, options: Options, cache: Cache, work: Path) -> Outcome:

@@ -54,7 +54,7 @@ def _output(command: list[str]) -> str:
             done = subprocess.run(  # noqa: S603  a fixed list of words, no shell
                 command,
                 cwd=folder,
-                env=environment(),
+                env=environment(Path(folder)),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,

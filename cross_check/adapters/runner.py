@@ -25,10 +25,14 @@ Columns = dict[str, NDArray[Any]]
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_btl": "self", "OMPI_MCA_pml": "ob1"}
 
 
-def environment() -> dict[str, str]:
-    """The environment of every external program: one thread, C locale, where things are, nothing else."""
+def environment(folder: Path) -> dict[str, str]:
+    """The environment of an external program: one thread, C locale, where things are, nothing else.
+
+    MPI keeps its session files in `folder`: in a folder that runs share, they remove each other's.
+    """
     kept = {key: os.environ[key] for key in ("PATH", "HOME", "TMPDIR", "LD_LIBRARY_PATH") if key in os.environ}
-    return kept | ALONE | {"OMP_NUM_THREADS": "1", "LC_ALL": "C", "PYTHONDONTWRITEBYTECODE": "1"}
+    own = {"OMPI_MCA_orte_tmpdir_base": str(folder.resolve())}
+    return kept | ALONE | own | {"OMP_NUM_THREADS": "1", "LC_ALL": "C", "PYTHONDONTWRITEBYTECODE": "1"}
 
 
 def start(command: Sequence[str], folder: Path, log: Path) -> subprocess.Popen[bytes]:
@@ -38,7 +42,7 @@ def start(command: Sequence[str], folder: Path, log: Path) -> subprocess.Popen[b
             return subprocess.Popen(  # noqa: S603  a list of words, no shell
                 list(command),
                 cwd=folder,
-                env=environment(),
+                env=environment(folder),
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,

@@ -28,6 +28,8 @@ from cross_check.engine import Gate
 from cross_check.record import Array
 from cross_check.scene import Scene
 
+REFERENCE = "reference"
+
 
 class UnknownQuantity(Exception):
     """A gate names a quantity or a closed form that does not exist; the message lists the known ones."""
@@ -92,7 +94,7 @@ class Bench:
             note=note,
         )
 
-    def undecided(self, left: str, right: str, why: str) -> Comparison:
+    def undecided(self, left: str, right: str, why: str, note: str = "") -> Comparison:
         """A comparison without a number: what a source could not deliver, and why."""
         verdict = why if why.startswith(("not-run", "not-comparable")) else not_comparable(why)
 
@@ -100,7 +102,7 @@ class Bench:
             recorded = (source, 0) in self.outcomes and self.outcomes[source, 0].origin == "recorded"
             return Side(source, None, None, recorded=recorded)
 
-        return self.comparison(empty(left), empty(right), None, verdict)
+        return self.comparison(empty(left), empty(right), None, verdict, note)
 
 
 def compare(scene: Scene, gate: Gate, outcomes: Outcomes, codes: tuple[str, ...]) -> Iterator[Comparison]:
@@ -159,25 +161,25 @@ def _judge(bench: Bench, discrepancy: float, uncertainty: float | None = None) -
 
 def _against_reference(bench: Bench) -> Iterator[Comparison]:
     form = _closed_form(bench)
-    label = f"reference:{bench.gate.reference}"
+    name = f"closed form {bench.gate.reference}"
     for source in (NATIVE, *bench.codes):
         try:
             value = bench.value(source)
         except Undefined as why:
-            yield bench.undecided(source, label, str(why))
+            yield bench.undecided(source, REFERENCE, str(why), name)
             continue
         if bench.quantity.scalar is not None:
             target = float(form(bench.scene))
-            left, right = bench.side(source, value), Side(label, target, 0.0, "closed form")
+            left, right = bench.side(source, value), Side(REFERENCE, target, 0.0, "closed form")
             discrepancy = _scaled(abs(value - target), bench.gate.scale, target)
             error = None if left.uncertainty is None else _scaled(left.uncertainty, bench.gate.scale, target)
-            yield bench.comparison(left, right, discrepancy, _judge(bench, discrepancy, error))
+            yield bench.comparison(left, right, discrepancy, _judge(bench, discrepancy, error), name)
         else:
             step, series = value
             target = form(bench.scene, step)
             discrepancy = _scaled(_peak(series - target), bench.gate.scale, target)
-            sides = bench.side(source, _peak(series)), Side(label, _peak(target), 0.0, "closed form")
-            yield bench.comparison(*sides, discrepancy, _judge(bench, discrepancy))
+            sides = bench.side(source, _peak(series)), Side(REFERENCE, _peak(target), 0.0, "closed form")
+            yield bench.comparison(*sides, discrepancy, _judge(bench, discrepancy), name)
 
 
 def _difference(bench: Bench, left: str, right: str) -> tuple[Side, Side, float]:

@@ -20,7 +20,7 @@ TEMPLATES = Path(__file__).with_name("templates")
 MEANINGS = {
     "agree": "The two values lie within the bound of each other.",
     "differ": "They do not. Where this is expected, the note says why it is shown all the same.",
-    "inconclusive": "An equivalence test without the power to decide: too few samples or too much scatter.",
+    "inconclusive": "No power to decide: the uncertainty (time step, scatter over seeds) is larger than the bound.",
     "known-difference": "The codes compute different things, and the size of the difference is predicted and met.",
     "not-comparable": "One side has no form for what the case asks. It is never approximated in silence.",
     "not-run": "There is no result: the code is not installed, the run failed, or only the full suite has it.",

@@ -50,7 +50,7 @@ def record(overlap: Array, speed: Array, force: Array, dt: float, velocity_time:
 
 
 def impact(onset: float, rebound: float, dt: float = 1.0, velocity_time: str = "synchronized") -> RunRecord:
-    """A contact of half a sine over 100 time units that begins at `onset` and leaves with `rebound` of its speed 1e-5."""
+    """A contact of half a sine over 100 time units that begins at `onset` and leaves with `rebound` times 1e-5."""
     time = np.arange(160) * dt - onset
     inside = (time > 0.0) & (time < 100.0)
     speed = np.where(time <= 0.0, 1e-5, np.where(time >= 100.0, -rebound * 1e-5, 0.0))
