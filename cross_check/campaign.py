@@ -64,8 +64,13 @@ def comparisons(finished: Finished, expected: Path | None = None) -> list[Compar
     return expect(found, table, {case.name for case in finished.cases}, complete)
 
 
-def write(finished: Finished, folder: Path, expected: Path | None = None) -> tuple[Path, list[Comparison]]:
-    """Writes verdicts, JUnit and the report into `folder`; returns the page and the comparisons."""
+def write(
+    finished: Finished, folder: Path, expected: Path | None = None, pdf: bool = True
+) -> tuple[Path, list[Comparison]]:
+    """Writes verdicts, JUnit and the report into `folder`; returns the page and the comparisons.
+
+    Drawing takes most of the time: with `pdf` false the figures are SVG only.
+    """
     verdicts = comparisons(finished, expected)
     outcomes = [outcome for group in finished.results.values() for outcome in group.values()]
     page = report.write(
@@ -88,6 +93,7 @@ def write(finished: Finished, folder: Path, expected: Path | None = None) -> tup
             left_out=[],
             known_differences={name: str(entry["explanation"]).strip() for name, entry in known().items()},
         ),
+        pdf,
     )
     return page, verdicts
 

@@ -151,12 +151,12 @@ def run_(
 @main.command("compare")
 @click.argument("folders", nargs=-1, required=True, type=click.Path(path_type=Path))
 def compare_(folders: tuple[Path, ...]) -> None:
-    """Compares the records of kept campaigns anew and writes their reports."""
+    """Compares the records of kept campaigns anew and writes their reports, with figures as SVG and PDF."""
     with _refusing():
         for folder in folders:
             finished = campaign.load(folder)
             if folder == folders[-1]:
-                _conclude(finished, folder)
+                _conclude(finished, folder, pdf=True)
             else:
                 campaign.write(finished, folder)
 
@@ -164,7 +164,7 @@ def compare_(folders: tuple[Path, ...]) -> None:
 @main.command("report")
 @click.argument("folder", type=click.Path(path_type=Path))
 def report_(folder: Path) -> None:
-    """Writes the report of a kept campaign anew."""
+    """Writes the report of a kept campaign anew, its figures as SVG and PDF."""
     with _refusing():
         page, _ = campaign.write(campaign.load(folder), folder)
     click.echo(page)
@@ -201,9 +201,9 @@ def _progress(total: int) -> Generator[runs.Progress]:
     yield tell
 
 
-def _conclude(finished: campaign.Finished, out: Path, expected: Path | None = None) -> NoReturn:
+def _conclude(finished: campaign.Finished, out: Path, expected: Path | None = None, pdf: bool = False) -> NoReturn:
     """Reports, says the result in one line, and leaves with the exit code of the contract."""
-    page, verdicts = campaign.write(finished, out, expected)
+    page, verdicts = campaign.write(finished, out, expected, pdf)
     if not verdicts:
         _fail(f"nothing was compared: the cases state no gate for the sources {', '.join(('native', *finished.codes))}")
     wrong = campaign.unexpected(verdicts)

@@ -10,7 +10,7 @@ from cross_check.report.campaign import Campaign
 __all__ = ["write"]
 
 
-def write(folder: Path, campaign: Campaign) -> Path:
+def write(folder: Path, campaign: Campaign, pdf: bool = True) -> Path:
     """Writes verdicts.json, junit.xml and report/ with its page, figures and tables; returns the page's path."""
     report = folder / "report"
     for old in (*report.glob("figures/*.svg"), *report.glob("figures/*.pdf"), *report.glob("tables/*.tex")):
@@ -19,7 +19,7 @@ def write(folder: Path, campaign: Campaign) -> Path:
     verdict_file.write(folder / "verdicts.json", campaign.comparisons)
     junit.write(folder / "junit.xml", campaign)
     tables.write_all(campaign, report / "tables")
-    drawn = figures.draw_all(campaign, report / "figures")
+    drawn = figures.draw_all(campaign, report / "figures", pdf)
     path = report / "index.html"
     path.write_text(page.render(campaign, drawn), encoding="utf-8")
     return path

@@ -44,6 +44,7 @@ class Job:
     curves: list[Drawn]
     residuals: list[Drawn]
     sweep: bool
+    pdf: bool
 
 
 def figure(job: Job) -> Figure:

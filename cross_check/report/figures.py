@@ -40,20 +40,20 @@ class Figured:
     notes: list[str]
 
 
-def draw_all(campaign: Campaign, folder: Path) -> list[Figured]:
-    """Draws every curve set and sweep into `folder` as svg and pdf, in two processes where that pays."""
+def draw_all(campaign: Campaign, folder: Path, pdf: bool = True) -> list[Figured]:
+    """Draws every curve set and sweep into `folder` as svg and, if asked, pdf, in two processes where that pays."""
     folder.mkdir(parents=True, exist_ok=True)
     if len(campaign.curves) + len(campaign.sweeps) > FEW:
         context = multiprocessing.get_context("spawn")
         try:
             with ProcessPoolExecutor(WORKERS, mp_context=context) as pool:
-                return list(pool.map(draw, _jobs(campaign, folder), chunksize=2))
+                return list(pool.map(draw, _jobs(campaign, folder, pdf), chunksize=2))
         except BrokenProcessPool:
             pass  # no second process to be had here (an interactive session, a small container): draw in this one
-    return [draw(job) for job in _jobs(campaign, folder)]
+    return [draw(job) for job in _jobs(campaign, folder, pdf)]
 
 
-def _jobs(campaign: Campaign, folder: Path) -> Iterator[Job]:
+def _jobs(campaign: Campaign, folder: Path, pdf: bool) -> Iterator[Job]:
     """The figures one by one, so that the first are drawn while the last are still thinned."""
     taken: set[str] = set()
 
@@ -67,16 +67,16 @@ def _jobs(campaign: Campaign, folder: Path) -> Iterator[Job]:
         return folder / name
 
     for sweep in campaign.sweeps:
-        yield _sweep_job(sweep, stem(sweep))
+        yield _sweep_job(sweep, stem(sweep), pdf)
     for curves in campaign.curves:
-        yield _curves_job(curves, stem(curves))
+        yield _curves_job(curves, stem(curves), pdf)
 
 
 def _ordered(curves: list[Curve]) -> list[Curve]:
     return sorted(curves, key=lambda curve: rank(curve.source))
 
 
-def _curves_job(item: CurveSet, stem: Path) -> Job:
+def _curves_job(item: CurveSet, stem: Path, pdf: bool) -> Job:
     return Job(
         stem,
         item.case,
@@ -87,10 +87,11 @@ def _curves_job(item: CurveSet, stem: Path) -> Job:
         [thin(curve) for curve in _ordered(item.curves)],
         [thin(curve, scale=item.residual_scale, absolute=True, limit=MOST_DIFFERENCES) for curve in item.residuals],
         sweep=False,
+        pdf=pdf,
     )
 
 
-def _sweep_job(item: SweepPlot, stem: Path) -> Job:
+def _sweep_job(item: SweepPlot, stem: Path, pdf: bool) -> Job:
     return Job(
         stem,
         case_of(item.case),
@@ -101,6 +102,7 @@ def _sweep_job(item: SweepPlot, stem: Path) -> Job:
         [thin(curve) for curve in _ordered(item.points)],
         [thin(curve, absolute=True, limit=MOST_DIFFERENCES) for curve in item.residuals],
         sweep=True,
+        pdf=pdf,
     )
 
 
@@ -116,8 +118,9 @@ def draw(job: Job) -> Figured:
         text = StringIO()
         blank = {"Date": None, "Creator": None, "Format": None, "Type": None}
         figure.savefig(text, format="svg", metadata=blank)
-        blank = {"CreationDate": None, "Creator": None, "Producer": None}
-        figure.savefig(f"{job.stem}.pdf", format="pdf", metadata=blank)
+        if job.pdf:
+            blank = {"CreationDate": None, "Creator": None, "Producer": None}
+            figure.savefig(f"{job.stem}.pdf", format="pdf", metadata=blank)
     svg = text.getvalue()
     Path(f"{job.stem}.svg").write_text(svg, encoding="utf-8")
     notes = [drawn.note for drawn in (*job.curves, *job.residuals) if drawn.note]
