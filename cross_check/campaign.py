@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from datetime import datetime, timezone
 from pathlib import Path
+from typing import Any
 
 from cross_check import engine, report, runs
 from cross_check.adapters import ADAPTERS
@@ -150,13 +151,22 @@ def keep(finished: Finished, folder: Path) -> None:
     index = {
         "schema": SCHEMA,
         "suite": finished.suite,
-        "cases": [str(case.path.resolve()) for case in finished.cases],
+        "cases": [str(_copy(case, folder)) for case in finished.cases],
         "codes": finished.codes,
         "started": finished.started,
         "duration": finished.duration,
         "outcomes": entries,
     }
     (folder / INDEX).write_text(json.dumps(index, indent=1) + "\n")
+
+
+def _copy(case: Case, folder: Path) -> Path:
+    """Copies a case file into the folder, so that the folder can be moved; returns its place in there."""
+    place = Path("cases") / f"{case.name}.toml"
+    (folder / place).parent.mkdir(parents=True, exist_ok=True)
+    if not (folder / place).exists() or not case.path.samefile(folder / place):
+        shutil.copyfile(case.path, folder / place)
+    return place
 
 
 def _link(source: Path, target: Path) -> None:
@@ -176,11 +186,18 @@ def load(folder: Path) -> Finished:
     path = folder / INDEX
     try:
         index = json.loads(path.read_text())
-    except (OSError, ValueError) as error:
-        raise RecordError(f"{path}: not a kept campaign ({error})") from error
-    if index.get("schema") != SCHEMA:
-        raise RecordError(f"{path}: schema {index.get('schema')!r}, this version reads schema {SCHEMA}")
-    cases = [load_case(Path(case)) for case in index["cases"]]
+        found = index["schema"]
+        if found != SCHEMA:
+            raise RecordError(f"{path}: schema {found!r}, this version reads schema {SCHEMA}")
+        return _finished(index, folder)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RecordError(f"{path}: not a kept campaign ({error!r})") from error
+
+
+def _finished(index: dict[str, Any], folder: Path) -> Finished:
+    """The campaign of an index; an index without the keys that `keep` writes raises KeyError or TypeError."""
+    path = folder / INDEX
+    cases = [load_case(folder / case) for case in index["cases"]]
     scenes = {
         (variant.scenes[0].name, scene.refinement): scene
         for case in cases

@@ -145,7 +145,8 @@ def read(folder: Path) -> RunRecord:
             raise RecordError(f"{path}: schema {raw.get('schema')!r}, this version reads schema {SCHEMA}")
         raw["code"] = Code(**raw["code"])
         header = Header(**raw)
-        with np.load(folder / "columns.npz") as data:
+        # An archive that is cut short leaves no file open this way.
+        with (folder / "columns.npz").open("rb") as file, np.load(file) as data:
             columns = {name: data[name] for name in data.files}
     except RecordError:
         raise

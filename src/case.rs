@@ -1,18 +1,21 @@
 //! The case file: schema, sweeps, checks, and the scenes that come of it.
 
 mod check;
+mod locate;
+pub mod measure;
 pub mod model;
 pub mod protocol;
 pub mod quantity;
 pub mod scene;
 pub mod schema;
+pub mod source;
 mod sweep;
 
 use std::path::Path;
 
 use serde::Serialize;
 
-use crate::error::Error;
+use crate::error::{Error, Place, Problem};
 use scene::Scene;
 use schema::Case;
 
@@ -33,21 +36,34 @@ pub fn json_schema() -> serde_json::Value {
     schemars::schema_for!(Case).to_value()
 }
 
+/// The name by which a case chooses a law or a kind.
+fn tag(value: &impl Serialize, key: &str) -> String {
+    let json = serde_json::to_value(value).unwrap_or_default();
+    json.get(key).and_then(serde_json::Value::as_str).unwrap_or_default().to_owned()
+}
+
 /// Reads and checks a case file. `overrides` are `key=value` pairs such as `time.step.value="1e-8 s"`.
 ///
 /// # Errors
 /// The file cannot be read, is not a case, or states what the physics does not allow.
 pub fn read(path: &Path, overrides: &[String]) -> Result<Stated, Error> {
-    let text =
-        std::fs::read_to_string(path).map_err(|reason| Error::Read { file: path.to_owned(), reason })?;
-    Stated::parse(&path.display().to_string(), &text, overrides)
+    let bytes = std::fs::read(path).map_err(|reason| Error::Read { file: path.to_owned(), reason })?;
+    let file = path.display().to_string();
+    let text = match std::str::from_utf8(&bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let at = error.valid_up_to();
+            let place = Place { file, line: locate::line_at(&bytes, at), origin: String::new() };
+            return Err(Error::NotText { place, byte: bytes[at] });
+        }
+    };
+    Stated::parse(&file, text, overrides)
 }
 
 /// A case as stated: it obeys the schema and the checks, whether or not this build can run it.
 #[derive(Clone, Debug)]
 pub struct Stated {
-    file: String,
-    text: String,
+    text: CaseText,
     /// The case, before its sweeps are applied.
     pub case: Case,
     /// Its variants.
@@ -63,21 +79,21 @@ impl Stated {
         if text.trim().is_empty() {
             return Err(Error::Empty { file: file.to_owned() });
         }
-        let parse_error = |error: toml::de::Error| Error::Parse { file: file.to_owned(), message: error.to_string() };
+        let mut text = CaseText { file: file.to_owned(), text: text.to_owned(), overrides: Vec::new() };
         // The text itself is read first: its errors know their line.
-        let mut case: Case = toml::from_str(text).map_err(parse_error)?;
-        let mut table: toml::Table = toml::from_str(text).map_err(parse_error)?;
+        let mut case: Case = toml::from_str(&text.text).map_err(|error| text.malformed(&error))?;
+        let mut table: toml::Table = toml::from_str(&text.text).map_err(|error| text.malformed(&error))?;
         if !overrides.is_empty() {
-            sweep::override_keys(&mut table, overrides)
-                .map_err(|problem| Error::Invalid { file: file.to_owned(), line: 0, problem })?;
-            case = table.clone().try_into().map_err(parse_error)?;
+            text.overrides = sweep::parse_overrides(overrides).map_err(|problem| text.invalid(None, problem))?;
+            (table, case) = text.overridden(&table)?;
         }
-        let mut stated = Self { file: file.to_owned(), text: text.to_owned(), case, variants: Vec::new() };
-        stated.refuse(&stated.file, check::sweeps(&stated.case))?;
-        stated.variants = sweep::variants(file, &table, &stated.case)?;
+        if let Some(problem) = check::sweeps(&case).into_iter().next() {
+            return Err(text.invalid(None, problem));
+        }
+        let variants = sweep::variants(&text, &table, &case)?;
+        let stated = Self { text, case, variants };
         for variant in &stated.variants {
-            let file = if variant.name.is_empty() { file.to_owned() } else { format!("{file} ({})", variant.name) };
-            stated.refuse(&file, check::case(&variant.case))?;
+            stated.refuse(variant, |variant| check::case(&variant.case).into_iter().next())?;
         }
         Ok(stated)
     }
@@ -89,41 +105,88 @@ impl Stated {
     pub fn load(self) -> Result<Loaded, Error> {
         let mut scenes = Vec::new();
         for variant in &self.variants {
-            let file =
-                if variant.name.is_empty() { self.file.clone() } else { format!("{} ({})", self.file, variant.name) };
             for refinement in 0..=variant.case.time.refinements {
-                match scene::prepare(&variant.case, &variant.name, refinement) {
+                let prepare = |variant: &sweep::Variant| scene::prepare(&variant.case, &variant.name, refinement);
+                match prepare(variant) {
                     Ok(scene) => scenes.push(scene),
-                    Err(problem) => self.refuse(&file, vec![problem])?,
+                    Err(_) => self.refuse(variant, |variant| prepare(variant).err())?,
                 }
             }
         }
         Ok(Loaded { case: self.case, variants: self.variants, scenes })
     }
 
-    fn refuse(&self, file: &str, problems: Vec<crate::error::Problem>) -> Result<(), Error> {
-        match problems.into_iter().next() {
-            None => Ok(()),
-            Some(problem) => {
-                Err(Error::Invalid { file: file.to_owned(), line: line_of(&self.text, &problem.key), problem })
-            }
+    /// Refuses a variant that has a problem; the message does not blame it for what all of them have.
+    fn refuse(
+        &self,
+        variant: &sweep::Variant,
+        problem_of: impl Fn(&sweep::Variant) -> Option<Problem>,
+    ) -> Result<(), Error> {
+        let Some(problem) = problem_of(variant) else { return Ok(()) };
+        let shared = self.variants.iter().all(|other| problem_of(other).as_ref() == Some(&problem));
+        let mut place = self.text.place(Some(variant), &problem.key);
+        if shared && place.origin == variant.origin() {
+            place.origin.clear();
         }
+        Err(Error::Invalid { place, problem: Box::new(problem) })
     }
 }
 
-/// Line of a key such as `particles.0.radius`, or of its nearest parent that stands in the text; 0 if none does.
-fn line_of(text: &str, key: &str) -> usize {
-    let Ok(document) = toml_edit::Document::parse(text) else { return 0 };
-    let mut item = document.as_item();
-    let mut span = None;
-    for part in key.split('.') {
-        let next = match part.parse::<usize>() {
-            Ok(index) => item.get(index),
-            Err(_) => item.get(part),
-        };
-        let Some(next) = next else { break };
-        item = next;
-        span = item.span().or(span);
+/// The text of a case with its overrides: it knows where a key was said.
+#[derive(Clone, Debug)]
+struct CaseText {
+    file: String,
+    text: String,
+    overrides: Vec<sweep::Override>,
+}
+
+impl CaseText {
+    fn malformed(&self, error: &toml::de::Error) -> Error {
+        let located = locate::locate(&self.text, error);
+        let place = Place { file: self.file.clone(), line: located.line, origin: String::new() };
+        // A message of one line stays readable in a log.
+        let message = error.message().lines().collect::<Vec<_>>().join(", ");
+        Error::Malformed { place, key: located.key, message }
     }
-    span.map_or(0, |range| text[..range.start].bytes().filter(|byte| *byte == b'\n').count() + 1)
+
+    fn invalid(&self, variant: Option<&sweep::Variant>, problem: Problem) -> Error {
+        Error::Invalid { place: self.place(variant, &problem.key), problem: Box::new(problem) }
+    }
+
+    /// Who said a key last: a point of the sweep, an override, or the file.
+    fn place(&self, variant: Option<&sweep::Variant>, key: &str) -> Place {
+        let set_by = |set: &str| set == key || key.strip_prefix(set).is_some_and(|rest| rest.starts_with('.'));
+        let origin = variant.map_or_else(String::new, sweep::Variant::origin);
+        let chosen = variant.map_or(&[][..], |variant| &variant.chosen);
+        for (axis, &index) in chosen.iter().enumerate().rev() {
+            let point = variant.and_then(|variant| variant.case.vary.get(axis)?.points.get(index));
+            if let Some(set) = point.and_then(|point| point.set.keys().find(|set| set_by(set))) {
+                let line = locate::line_of_set(&self.text, axis, index, set);
+                return Place { file: self.file.clone(), line, origin };
+            }
+        }
+        if let Some(given) = self.overrides.iter().rev().find(|given| set_by(&given.key)) {
+            return Place { file: self.file.clone(), line: 0, origin: given.origin() };
+        }
+        Place { file: self.file.clone(), line: locate::line_of(&self.text, key), origin }
+    }
+
+    /// The case with its overrides; an error names the override that makes it none.
+    fn overridden(&self, base: &toml::Table) -> Result<(toml::Table, Case), Error> {
+        let mut table = base.clone();
+        for given in &self.overrides {
+            sweep::replace(&mut table, &given.key, given.value.clone())
+                .map_err(|problem| self.invalid(None, problem))?;
+        }
+        match table.clone().try_into() {
+            Ok(case) => Ok((table, case)),
+            Err(error) => {
+                let alone = |given: &&sweep::Override| !sweep::alone(base, &given.key, &given.value);
+                let culprit = self.overrides.iter().find(alone).or_else(|| self.overrides.last());
+                let (key, origin) = culprit.map_or_else(Default::default, |given| (given.key.clone(), given.origin()));
+                let place = Place { file: self.file.clone(), line: 0, origin };
+                Err(Error::Malformed { place, key, message: toml::de::Error::message(&error).to_owned() })
+            }
+        }
+    }
 }

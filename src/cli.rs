@@ -86,7 +86,8 @@ pub fn run<I: IntoIterator<Item = OsString>>(arguments: I) -> u8 {
 }
 
 fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
-    let mut say = |text: String| writeln!(out, "{text}").map_err(|reason| Error::Write { file: "stdout".into(), reason });
+    let mut say =
+        |text: String| writeln!(out, "{text}").map_err(|reason| Error::Write { file: "stdout".into(), reason });
     match command {
         Command::Run { case, out, threads, set, variant } => {
             let loaded = case::read(case, set)?.load()?;
@@ -144,7 +145,7 @@ fn bar(steps: u64) -> ProgressBar {
 fn run_case(scene: &Scene, threads: usize, folder: &Path, progress: &ProgressBar) -> Result<(), Error> {
     let done = progress.position();
     let recorder = simulation::run(scene, threads, &|step| {
-        if step % 1024 == 0 {
+        if step.is_multiple_of(1024) {
             progress.set_position(done + step);
         }
     })?;

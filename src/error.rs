@@ -1,5 +1,6 @@
 //! The one error type: what is wrong, where, the value and what is allowed.
 
+use std::fmt;
 use std::path::PathBuf;
 
 use thiserror::Error;
@@ -29,23 +30,39 @@ pub enum Error {
         /// The file.
         file: String,
     },
-    /// Text that is not a case: syntax, an unknown key, a wrong type or unit.
+    /// Bytes that are not text.
+    #[error("{place}: byte 0x{byte:02x} is not UTF-8 text, expected a case in TOML")]
+    NotText {
+        /// Where.
+        place: Place,
+        /// The byte.
+        byte: u8,
+    },
+    /// Text that is not a scene.
     #[error("{file}: {message}")]
     Parse {
-        /// The file, with the variant where one was being built.
+        /// The file.
         file: String,
-        /// Line, caret and reason.
+        /// Line, column and reason.
+        message: String,
+    },
+    /// Text that is not a case: syntax, an unknown key, a wrong type or unit.
+    #[error("{place}: {}{message}", if key.is_empty() { String::new() } else { format!("{key}: ") })]
+    Malformed {
+        /// Where.
+        place: Place,
+        /// Path of the key, empty if there is none.
+        key: String,
+        /// What is there and what was expected.
         message: String,
     },
     /// A value that the schema can hold and the physics cannot.
-    #[error("{file}:{line}: {problem}")]
+    #[error("{place}: {problem}")]
     Invalid {
-        /// The file, with the variant where one was being built.
-        file: String,
-        /// Line of the key, 0 if the key stands nowhere.
-        line: usize,
+        /// Where.
+        place: Place,
         /// Key, value and what is allowed.
-        problem: Problem,
+        problem: Box<Problem>,
     },
     /// A scene that the engine cannot run.
     #[error("scene {scene}: {reason}")]
@@ -56,7 +73,9 @@ pub enum Error {
         reason: String,
     },
     /// A run whose state stopped being finite.
-    #[error("scene {scene}: particle {particle} is no longer at a finite place at step {step}; a smaller time step may help")]
+    #[error(
+        "scene {scene}: particle {particle} is no longer at a finite place at step {step}; a smaller time step may help"
+    )]
     Diverged {
         /// Name of the scene.
         scene: String,
@@ -75,6 +94,30 @@ pub enum Error {
     },
 }
 
+/// A place in the statement of a case.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// The file.
+    pub file: String,
+    /// Line of the file, 0 if no line says it.
+    pub line: usize,
+    /// The variant or the override that says it, empty if the file itself does.
+    pub origin: String,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file)?;
+        if self.line > 0 {
+            write!(f, ":{}", self.line)?;
+        }
+        if !self.origin.is_empty() {
+            write!(f, " ({})", self.origin)?;
+        }
+        Ok(())
+    }
+}
+
 /// A key whose value is not allowed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{key} = {value}: {allowed}")]
@@ -89,6 +132,7 @@ pub struct Problem {
 
 impl Problem {
     /// A problem at `key`.
+    #[expect(clippy::needless_pass_by_value, reason = "values are numbers or borrowed")]
     pub fn new(key: impl Into<String>, value: impl ToString, allowed: impl Into<String>) -> Self {
         Self { key: key.into(), value: value.to_string(), allowed: allowed.into() }
     }

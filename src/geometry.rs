@@ -19,11 +19,7 @@ impl ContactGeometry {
     /// R* = `Ri` `Rj` / (`Ri` + `Rj`), and `Ri` at a plane [m].
     #[must_use]
     pub fn effective_radius(&self) -> f64 {
-        if self.radius_j.is_infinite() {
-            self.radius_i
-        } else {
-            crate::material::reduced(self.radius_i, self.radius_j)
-        }
+        if self.radius_j.is_infinite() { self.radius_i } else { crate::material::reduced(self.radius_i, self.radius_j) }
     }
 }
 

@@ -104,7 +104,13 @@ pub trait TangentialLaw: Copy + Send + Sync {
     type History: Copy + Default + Send + Sync;
 
     /// The force at a contact over a step `dt` [s].
-    fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Self::History) -> TangentialState;
+    fn evaluate(
+        &self,
+        contact: &Contact,
+        normal: &NormalState,
+        dt: f64,
+        history: &mut Self::History,
+    ) -> TangentialState;
 }
 
 /// A law of rolling and twisting moments.
@@ -135,9 +141,6 @@ impl Contact {
     /// Overlap and normal velocity.
     #[must_use]
     pub fn approach(&self) -> Approach {
-        Approach {
-            overlap: self.geometry.overlap,
-            normal_velocity: -self.velocity.dot(&self.geometry.normal),
-        }
+        Approach { overlap: self.geometry.overlap, normal_velocity: -self.velocity.dot(&self.geometry.normal) }
     }
 }

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 /// The native discrete element engine and the case schema.
 #[pymodule(name = "crossgrain")]
+#[expect(clippy::needless_pass_by_value, reason = "Python hands over owned arguments, map_err owned errors")]
 mod module {
     use std::ffi::OsString;
     use std::path::PathBuf;
@@ -17,7 +18,6 @@ mod module {
     #[expect(non_upper_case_globals, reason = "the name that Python gives to versions")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
 
-    #[expect(clippy::needless_pass_by_value, reason = "the signature of map_err")]
     fn raise(error: Error) -> PyErr {
         PyValueError::new_err(error.to_string())
     }

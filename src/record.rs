@@ -52,21 +52,21 @@ impl Recorder {
             column("torque", "N m", &[particles, 3]),
             column("body_force", "N", &[bodies, 3]),
         ];
-        let energies =
-            ["energy_kinetic", "energy_elastic", "energy_gravity", "energy_viscous", "energy_body_work", "energy_entered"];
+        let energies = [
+            "energy_kinetic",
+            "energy_elastic",
+            "energy_gravity",
+            "energy_viscous",
+            "energy_body_work",
+            "energy_entered",
+        ];
         columns.extend(energies.map(|name| column(name, "J", &[])));
         let mut header = header(scene);
         header["columns"]["step"] = json!("-");
         for column in &columns {
             header["columns"][column.name] = json!(column.unit);
         }
-        Self {
-            header,
-            started: Instant::now(),
-            time_step: scene.time_step,
-            steps: Vec::new(),
-            columns,
-        }
+        Self { header, started: Instant::now(), time_step: scene.time_step, steps: Vec::new(), columns }
     }
 
     /// Adds a sample.
@@ -111,11 +111,7 @@ impl Recorder {
     fn write_columns(&self, path: &Path) -> std::io::Result<()> {
         let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
         let samples = self.steps.len() as u64;
-        let mut steps = archive
-            .array("step", FileOptions::default())?
-            .default_dtype()
-            .shape(&[samples])
-            .begin_nd()?;
+        let mut steps = archive.array("step", FileOptions::default())?.default_dtype().shape(&[samples]).begin_nd()?;
         steps.extend(self.steps.iter().copied())?;
         steps.finish()?;
         for column in &self.columns {

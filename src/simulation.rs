@@ -25,8 +25,9 @@ const CHUNK: usize = 256;
 /// Runs a scene on `threads` threads; `progress` hears the number of finished steps.
 ///
 /// # Errors
-/// The scene names a law that this build does not have, or the run diverges.
+/// The scene is not valid, names a law that this build does not have, or its run diverges.
 pub fn run(scene: &Scene, threads: usize, progress: &(dyn Fn(u64) + Sync)) -> Result<Recorder, Error> {
+    scene.check()?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
@@ -34,7 +35,7 @@ pub fn run(scene: &Scene, threads: usize, progress: &(dyn Fn(u64) + Sync)) -> Re
     pool.install(|| match &scene.model.normal {
         NormalLaw::Hertz { force_cut } => {
             let normal = Hertz { force_cut: ForceCut::cuts(*force_cut) };
-            Simulation::new(scene, Composed { normal, tangential: Frictionless, moments: Free })?.run(progress)
+            Simulation::new(scene, Composed { normal, tangential: Frictionless, moments: Free }).run(progress)
         }
         other => Err(Error::Scene { scene: scene.name(), reason: format!("this version has no law {other:?}") }),
     })
@@ -55,19 +56,16 @@ struct Simulation<'a, M: ContactModel> {
 }
 
 impl<'a, M: ContactModel> Simulation<'a, M> {
-    fn new(scene: &'a Scene, model: M) -> Result<Self, Error> {
+    fn new(scene: &'a Scene, model: M) -> Self {
         let count = scene.materials.len();
         let mut table = vec![None; count * count];
         for pair in &scene.pairs {
             let [a, b] = pair.between;
-            if a >= count || b >= count {
-                return Err(Error::Scene { scene: scene.name(), reason: format!("pair {a}, {b}: there are {count} materials") });
-            }
             table[a * count + b] = Some(*pair);
             table[b * count + a] = Some(*pair);
         }
         let particles = Particles::new(scene);
-        Ok(Self {
+        Self {
             scene,
             model,
             shared: M::Shared::default(),
@@ -78,7 +76,7 @@ impl<'a, M: ContactModel> Simulation<'a, M> {
             contacts: Contacts::default(),
             ledger: Ledger::default(),
             particles,
-        })
+        }
     }
 
     fn run(mut self, progress: &(dyn Fn(u64) + Sync)) -> Result<Recorder, Error> {
@@ -141,7 +139,9 @@ impl<'a, M: ContactModel> Simulation<'a, M> {
         if slots.len() > CHUNK {
             slots.par_chunks_mut(CHUNK).for_each(|chunk| chunk.iter_mut().for_each(|slot| this.contact(slot, elapsed)));
         } else {
-            slots.iter_mut().for_each(|slot| this.contact(slot, elapsed));
+            for slot in &mut slots {
+                this.contact(slot, elapsed);
+            }
         }
         self.contacts.slots = slots;
         self.gather();
@@ -224,13 +224,14 @@ impl<'a, M: ContactModel> Simulation<'a, M> {
             damping_ratio: pair.damping_ratio,
         };
         let velocity = particles.velocity[i] - velocity;
-        let contact = Contact { pair, geometry, velocity, angular_i: particles.angular_velocity[i], angular_j: angular };
+        let contact =
+            Contact { pair, geometry, velocity, angular_i: particles.angular_velocity[i], angular_j: angular };
         Some((contact, wall))
     }
 
     /// Records the present state if it is due; velocities are ahead of positions by `ahead` [s].
     fn sample(&mut self, recorder: &mut Recorder, step: u64, ahead: f64) -> Result<(), Error> {
-        if step % self.scene.output_every != 0 {
+        if !step.is_multiple_of(self.scene.output_every) {
             return Ok(());
         }
         if let Some(particle) = self.particles.position.iter().position(|x| !x.iter().all(|c| c.is_finite())) {

@@ -1,5 +1,7 @@
 //! The engine's frame: determinism, integrators, bodies, and the energy ledger.
 
+#![allow(clippy::unwrap_used, reason = "tests")]
+
 use crossgrain::case::model::{ForceCut, NormalLaw};
 use crossgrain::case::scene::{Mirror, Scene, SceneBody, SceneMotion, SceneParticle, SceneShape, Start};
 use crossgrain::case::{Stated, scene};
@@ -112,7 +114,9 @@ fn bits(recorder: &Recorder) -> Vec<u64> {
 fn residual(recorder: &Recorder) -> f64 {
     let column = |name| recorder.values(name);
     let balance = |i: usize| {
-        column("energy_kinetic")[i] + column("energy_elastic")[i] + column("energy_gravity")[i]
+        column("energy_kinetic")[i]
+            + column("energy_elastic")[i]
+            + column("energy_gravity")[i]
             + column("energy_viscous")[i]
             - column("energy_body_work")[i]
     };
@@ -123,7 +127,12 @@ fn residual(recorder: &Recorder) -> f64 {
 }
 
 fn halved(scene: &Scene) -> Scene {
-    Scene { time_step: scene.time_step / 2.0, steps: 2 * scene.steps, output_every: 2 * scene.output_every, ..scene.clone() }
+    Scene {
+        time_step: scene.time_step / 2.0,
+        steps: 2 * scene.steps,
+        output_every: 2 * scene.output_every,
+        ..scene.clone()
+    }
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! The contact model of a case: a normal, a tangential and a moment law, and the values that they ask of each pair.
 //!
 //! The schema names every law that a case may ask for; [`crate::laws`] holds those that this build computes, and
-//! preparing a scene refuses the others by name.
+//! preparing a scene refuses the others by name. Variants without values have braces: serde refuses unknown keys only there.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::quantity::{Dashpot, Force, Length, Number, Stiffness, SurfaceEnergy, Temperature};
+use super::quantity::{Dashpot, Duration, Force, Length, Number, Stiffness, SurfaceEnergy, Temperature};
 
 /// The composed contact model.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -31,10 +31,10 @@ pub enum NormalLaw {
         /// Whether the total force is cut at zero.
         force_cut: ForceCut,
     },
-    /// Johnson, Kendall, Roberts (1971).
-    Jkr,
-    /// Derjaguin, Muller, Toporov (1975).
-    Dmt,
+    /// Johnson, Kendall, Roberts (1971); its values are those of the pair.
+    Jkr {},
+    /// Derjaguin, Muller, Toporov (1975); its values are those of the pair.
+    Dmt {},
     /// Linear spring and dashpot.
     LinearSpringDashpot {
         /// Stiffness [N/m].
@@ -60,19 +60,60 @@ pub enum NormalLaw {
         melting_temperature: Temperature,
         /// Width of the melting range [K].
         melting_range: Temperature,
+        /// Relaxation time of the loading stiffness until a stage sets another one [s].
+        relaxation_time: Duration,
         /// How the largest overlap follows a stiffening contact.
         cooling: Cooling,
     },
-    /// Linearised plastic-cohesive contact (Walton).
+    /// Linearised plastic-cohesive contact (Walton); its loading stiffness follows from the yield strength.
     WaltonCohesive {
-        /// Pull-off force [N].
+        /// Pull-off force of a contact that was never loaded [N].
         pull_off: Force,
-        /// Build-up of the pull-off force with load [-].
+        /// Build-up of the pull-off force with the largest load, in [0, 1) [-].
         build_up: Number,
-        /// Softening of the loading stiffness [-].
+        /// Softening of the loading stiffness, in (0, 1] [-].
         soften: Number,
-        /// Ratio of unloading and loading stiffness [-].
-        stiffness_ratio: Number,
+        /// How it unloads.
+        unloading: Unloading,
+        /// Attraction beyond the plastic offset.
+        tail: Tail,
+        /// Dashpot on the unloading branch, as a fraction of critical damping [-].
+        damping_ratio: Number,
+    },
+}
+
+/// Unloading of a plastic contact.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Unloading {
+    /// Along a constant multiple of the loading stiffness.
+    ConstantRatio {
+        /// Unloading stiffness over loading stiffness, at least 1 [-].
+        value: Number,
+    },
+    /// Along the initial slope of Hertz at the largest load, with twice the effective radius.
+    Hertz {},
+}
+
+/// Attraction of a plastic-cohesive contact beyond its plastic offset.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Tail {
+    /// None.
+    None {},
+    /// Falls linearly to zero.
+    Linear {
+        /// Length over which it falls [m].
+        length: Length,
+        /// Whether it acts on surfaces that have not touched yet.
+        on_approach: bool,
+    },
+    /// Van der Waals attraction, whose closest distance is 0.4 nm.
+    VanDerWaals {
+        /// Gap at which it is cut off [m].
+        cut_off: Length,
+        /// Whether it acts on surfaces that have not touched yet.
+        on_approach: bool,
     },
 }
 
@@ -103,7 +144,7 @@ pub enum Cooling {
 #[serde(tag = "law", rename_all = "snake_case", deny_unknown_fields)]
 pub enum TangentialLaw {
     /// No tangential force.
-    Frictionless,
+    Frictionless {},
     /// No-slip Mindlin stiffness with a Coulomb cap.
     Mindlin {
         /// What the contact remembers.
@@ -116,6 +157,48 @@ pub enum TangentialLaw {
         /// Dashpot constant [kg/s].
         dashpot: Dashpot,
     },
+    /// Spring, dashpot and cap of long-time sintering, for the normal law of the same name.
+    LudingSintering {
+        /// Stiffness as a share of the unloading stiffness [-].
+        stiffness_ratio: Number,
+        /// Dashpot constant [kg/s].
+        dashpot: Dashpot,
+        /// What heat does to friction.
+        friction: HotFriction,
+        /// What sliding does to cohesion.
+        sliding: Sliding,
+    },
+    /// Spring with a cap on the repulsive part of the normal force (Walton), for the normal law `walton_cohesive`.
+    WaltonFriction {
+        /// Stiffness as a share of the loading stiffness [-].
+        stiffness_ratio: Number,
+        /// Whether the stiffness grows with the contact area.
+        area_scaled: bool,
+        /// Dashpot while it sticks, as a fraction of critical damping [-].
+        damping_ratio: Number,
+    },
+}
+
+/// What heat does to the friction of sintering contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum HotFriction {
+    /// The coefficient softens like the loading stiffness.
+    Softens,
+    /// The coefficient is that of the pair at every temperature.
+    Constant,
+}
+
+/// What sliding does to the cohesion of sintering contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Sliding {
+    /// Nothing.
+    Off,
+    /// A sliding contact does not pull: its normal force is cut at zero.
+    Cut,
+    /// A sliding contact has no cohesive stiffness, and loses its largest overlap accordingly.
+    Brittle,
 }
 
 /// What a tangential contact remembers.
@@ -135,11 +218,11 @@ pub enum History {
 #[serde(tag = "law", rename_all = "snake_case", deny_unknown_fields)]
 pub enum MomentLaw {
     /// No moments.
-    Free,
+    Free {},
     /// Elastic-plastic rolling spring.
-    ElasticPlasticRolling,
+    ElasticPlasticRolling {},
     /// Rolling torque of constant size.
-    ConstantTorque,
+    ConstantTorque {},
     /// Bending and twisting of plastic-cohesive contacts (Walton).
     WaltonBendingTwisting {
         /// Widening of the bending arm [-].
@@ -154,11 +237,13 @@ pub enum MomentLaw {
 #[serde(tag = "law", rename_all = "snake_case", deny_unknown_fields)]
 pub enum HeatLaw {
     /// Conduction through contact spots (Batchelor, O'Brien 1977).
-    BatchelorOBrien,
+    BatchelorOBrien {},
     /// Conduction through contact spots and radiation between neighbours.
     ConductionAndRadiation {
-        /// Emissivity [-].
+        /// Emissivity, in (0, 1] [-].
         emissivity: Number,
+        /// Largest distance of the centres of two particles that see each other [diameters].
+        reach: Number,
     },
 }
 
@@ -176,6 +261,8 @@ pub struct PairValues {
     pub twisting_friction: Option<Number>,
     /// Work of adhesion W = 2 gamma for like solids [J/m2].
     pub work_of_adhesion: Option<SurfaceEnergy>,
+    /// Whether the contact may pull, for laws whose cohesion is a value of the model.
+    pub cohesive: Option<bool>,
 }
 
 /// Dissipation along the normal.
@@ -183,7 +270,7 @@ pub struct PairValues {
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Damping {
     /// None.
-    None,
+    None {},
     /// The dashpot that gives this restitution when the force is not cut; 0 is critical damping.
     Restitution {
         /// Restitution in [0, 1] [-].

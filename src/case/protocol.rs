@@ -5,8 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::model::PairValues;
 use super::quantity::{
-    AngularSpeed, Dashpot, Duration, Force, Frequency, Length, Mass, Number, Pressure, Speed, Stiffness, Temperature,
+    Acceleration, AngularSpeed, Dashpot, Duration, Force, Frequency, Length, Mass, Number, Pressure, Speed, Stiffness,
+    Temperature,
 };
+use super::schema::Output;
+use super::source::ParticleSource;
 
 /// A wall.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -58,13 +61,13 @@ pub enum Shape {
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Motion {
     /// It does not move.
-    Fixed,
+    Fixed {},
     /// It moves at a constant velocity.
     Prescribed {
         /// Velocity [m/s].
         velocity: [Speed; 3],
     },
-    /// It follows the load on it: m x'' = F - load - damping x'.
+    /// It follows the load on it and has no weight: m x'' = F - load - damping x', F the force of the particles.
     Servo {
         /// Direction of the motion, away from the particles [-].
         direction: [Number; 3],
@@ -75,7 +78,7 @@ pub enum Motion {
         /// Dashpot constant [kg/s].
         damping: Dashpot,
     },
-    /// It hangs on a spring.
+    /// It hangs on a spring and has weight: m x'' = m g + preload - stiffness x - load - damping x'.
     Sprung {
         /// Direction of the motion [-].
         direction: [Number; 3],
@@ -85,10 +88,10 @@ pub enum Motion {
         stiffness: Stiffness,
         /// Dashpot constant [kg/s].
         damping: Dashpot,
-        /// Force of the spring at the start [N].
+        /// Force of the spring when the motion begins, along the direction [N].
         preload: Force,
     },
-    /// It oscillates about its place.
+    /// It oscillates about its place: x = amplitude sin(2 pi frequency t).
     Oscillating {
         /// Direction of the motion [-].
         direction: [Number; 3],
@@ -133,6 +136,8 @@ pub struct Stage {
     /// What happens at its beginning, in order.
     #[serde(default)]
     pub actions: Vec<Action>,
+    /// Sampling during the stage; that of the case if absent.
+    pub output: Option<Output>,
 }
 
 /// End of a stage.
@@ -156,6 +161,34 @@ pub enum End {
         /// Time after which the stage is given up [s].
         at_most: Duration,
     },
+    /// When the contact forces on each particle balance, with or without gravity.
+    Balanced {
+        /// Mean resultant over mean contact force [-].
+        ratio: Number,
+        /// Time after which the stage is given up [s].
+        at_most: Duration,
+    },
+    /// When the particles' load on a body passes a value.
+    Load {
+        /// Name of the body.
+        body: String,
+        /// The load, along the body's normal.
+        load: Load,
+        /// From which side it passes.
+        passes: Passes,
+        /// Time after which the stage is given up [s].
+        at_most: Duration,
+    },
+}
+
+/// From which side a value is passed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Passes {
+    /// From below.
+    Upwards,
+    /// From above.
+    Downwards,
 }
 
 /// Actions at the beginning of a stage.
@@ -197,6 +230,13 @@ pub enum Action {
         /// Temperature at the end of the stage [K].
         to: Temperature,
     },
+    /// Ramps the external load of a servo wall linearly over the stage.
+    RampLoad {
+        /// Name of the body.
+        body: String,
+        /// Load at the end of the stage, of the kind that the wall has.
+        to: Load,
+    },
     /// Gives the relaxation time of a law's stiffness.
     SetRelaxationTime {
         /// Relaxation time [s].
@@ -205,23 +245,43 @@ pub enum Action {
     /// Changes gravity.
     SetGravity {
         /// Gravity [m/s2].
-        value: [super::quantity::Acceleration; 3],
+        value: [Acceleration; 3],
+    },
+    /// Slows every particle by a drag: acceleration = -rate velocity. Zero switches it off.
+    SetDrag {
+        /// Rate [1/s].
+        rate: Frequency,
     },
     /// Adds particles.
     Deposit {
         /// Where they come from.
-        particles: super::schema::ParticleSource,
+        particles: ParticleSource,
     },
-    /// Drives one particle along a path and holds all others: one contact along a prescribed path.
+    /// For the stage, drives one particle along a path and holds all others: one contact along a prescribed path.
     Drive {
         /// Index of the driven particle.
         particle: u32,
-        /// Velocity [m/s].
+        /// Velocity, in the frame that turns with the configuration [m/s].
         velocity: [Speed; 3],
-        /// Angular velocity [rad/s].
+        /// Angular velocity, in that frame [rad/s].
         angular_velocity: [AngularSpeed; 3],
-        /// Rotation of the whole configuration about the origin [rad/s].
+        /// What multiplies the two velocities as time goes on.
+        course: Course,
+        /// Rotation of the whole configuration about the origin, from the beginning of the stage [rad/s].
         rotation: [AngularSpeed; 3],
+    },
+}
+
+/// What multiplies the velocity of a driven particle; t is the time since the beginning of the stage.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Course {
+    /// 1: a straight path.
+    Constant {},
+    /// cos(2 pi frequency t): a sinusoid of amplitude velocity / (2 pi frequency) about the place of the start.
+    Sinusoid {
+        /// Frequency [Hz].
+        frequency: Frequency,
     },
 }
 
@@ -230,7 +290,7 @@ pub enum Action {
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum HeatTarget {
     /// All particles and the law's own temperature.
-    Particles,
+    Particles {},
     /// One body.
     Body {
         /// Name of the body.

@@ -120,10 +120,7 @@ struct Unit {
 
 fn symbol(text: &str) -> Option<Unit> {
     let known = |name: &str| UNITS.iter().find(|unit| unit.0 == name);
-    let base = |unit: &(&str, f64, Dimension)| Unit {
-        exponent: if unit.0 == "g" { -3 } else { 0 },
-        dimension: unit.2,
-    };
+    let base = |unit: &(&str, f64, Dimension)| Unit { exponent: if unit.0 == "g" { -3 } else { 0 }, dimension: unit.2 };
     if let Some(unit) = known(text) {
         return Some(base(unit));
     }
@@ -145,6 +142,9 @@ fn parse_unit(text: &str) -> Result<Unit, String> {
             Some(at) => {
                 let power = factor[at..].trim_start_matches('^');
                 let power: i32 = power.parse().map_err(|_| format!("`{power}` is not a power"))?;
+                if !(-9..=9).contains(&power) {
+                    return Err(format!("the power {power} is beyond 9"));
+                }
                 (&factor[..at], power)
             }
             None => (factor, 1),
@@ -161,19 +161,27 @@ fn parse_unit(text: &str) -> Result<Unit, String> {
     Ok(total)
 }
 
+/// The kind with its article.
+fn one(kind: &str) -> String {
+    format!("{} {kind}", if kind.starts_with('a') { "an" } else { "a" })
+}
+
 /// Reads `"2.5 mm"` as a quantity of the kind whose SI unit is `expected`.
 fn parse(text: &str, kind: &str, expected: &str) -> Result<f64, String> {
     let wanted = parse_unit(expected)?;
     let text = text.trim();
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-    let number: f64 = number.parse().map_err(|_| format!("`{text}` does not start with a number"))?;
+    let number: f64 = number
+        .parse()
+        .map_err(|_| format!("`{text}` does not start with a number, expected {} such as `1 {expected}`", one(kind)))?;
     if unit.is_empty() {
-        return Err(format!("`{text}` has no unit, expected a {kind} such as `1 {expected}`"));
+        return Err(format!("`{text}` has no unit, expected {} such as `1 {expected}`", one(kind)));
     }
     let unit = unit.trim();
-    let given = parse_unit(unit).map_err(|why| format!("{why} in `{text}`, expected a {kind} such as `1 {expected}`"))?;
+    let given =
+        parse_unit(unit).map_err(|why| format!("{why} in `{text}`, expected {} such as `1 {expected}`", one(kind)))?;
     if given.dimension != wanted.dimension {
-        return Err(format!("`{text}` is not a {kind}, expected a unit such as `{expected}`"));
+        return Err(format!("`{text}` is not {}, expected a unit such as `{expected}`", one(kind)));
     }
     // One multiplication or division by an exact power of ten keeps decimal input correctly rounded.
     let exponent = given.exponent - wanted.exponent;
@@ -187,14 +195,14 @@ impl<K: Kind> Visitor<'_> for QuantityVisitor<K> {
     type Value = Quantity<K>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a {} in {} or a string such as `1 {}`", K::NAME, K::UNIT, K::UNIT)
+        write!(f, "{} in {} or a string such as `1 {}`", one(K::NAME), K::UNIT, K::UNIT)
     }
 
     fn visit_f64<E: de::Error>(self, value: f64) -> Result<Self::Value, E> {
         if value.is_finite() {
             Ok(Quantity::new(value))
         } else {
-            Err(E::custom(format!("{value} is not a finite number, expected a {}", K::NAME)))
+            Err(E::custom(format!("{value} is not a finite number, expected {} such as `1 {}`", one(K::NAME), K::UNIT)))
         }
     }
 
@@ -207,7 +215,16 @@ impl<K: Kind> Visitor<'_> for QuantityVisitor<K> {
     }
 
     fn visit_str<E: de::Error>(self, value: &str) -> Result<Self::Value, E> {
-        self.visit_f64(parse(value, K::NAME, K::UNIT).map_err(E::custom)?)
+        let number = parse(value, K::NAME, K::UNIT).map_err(E::custom)?;
+        if number.is_finite() {
+            Ok(Quantity::new(number))
+        } else {
+            Err(E::custom(format!(
+                "`{value}` is not a finite number, expected {} such as `1 {}`",
+                one(K::NAME),
+                K::UNIT
+            )))
+        }
     }
 }
 
@@ -230,7 +247,7 @@ impl<K: Kind> JsonSchema for Quantity<K> {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": format!("A {} in {}, as a number or as a string with a unit.", K::NAME, K::UNIT),
+            "description": format!("{} in {}, as a number or as a string with a unit.", one(K::NAME), K::UNIT),
             "anyOf": [
                 {"type": "number"},
                 {"type": "string", "pattern": r"^\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)? [A-Za-zµ0-9*/^ -]+$"},
@@ -264,7 +281,7 @@ impl<'de> Deserialize<'de> for Number {
         if value.is_finite() {
             Ok(Self(value))
         } else {
-            Err(de::Error::custom(format!("{value} is not a finite number")))
+            Err(de::Error::custom(format!("{value} is not a finite number, expected a number without unit")))
         }
     }
 }

@@ -1,19 +1,23 @@
 //! Scenes: one runnable problem with nothing left to resolve (docs/formats.md).
 
+mod duration;
+mod supported;
+mod valid;
+
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
-use super::protocol::{End, Motion, Shape};
+use super::model::{Damping, ForceCut, NormalLaw};
+use super::protocol::{Motion, Shape};
 use super::quantity::{Kind, Number, Quantity};
-use super::schema::{Boundary, Case, Geometry, Level, ParticleSource, TimeStep};
+use super::schema::{Boundary, Case, Level};
+use super::source::ParticleSource;
+use crate::Vector;
 use crate::error::Problem;
 use crate::geometry::{self, ContactGeometry};
 use crate::laws::PairLaw;
-use crate::laws::normal::hertz::Hertz;
 use crate::material::{self, Material, PairProperties};
-use crate::Vector;
 
 /// The version of the scene format.
 pub const SCHEMA: u32 = 1;
@@ -142,8 +146,11 @@ fn si<K: Kind, const N: usize>(values: &[Quantity<K>; N]) -> [f64; N] {
 }
 
 /// Resolves one variant into a scene whose time step is divided by 2^`refinement`.
+///
+/// # Errors
+/// The case asks for what this build does not compute, or its start state or time step is not allowed.
 pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Problem> {
-    supported(case)?;
+    supported::supported(case)?;
     let mut scene = Scene {
         schema: SCHEMA,
         case: case.name.clone(),
@@ -166,58 +173,12 @@ pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Pro
     scene.pairs = pairs(case, &scene.materials);
     scene.bodies = bodies(case);
     scene.particles = case.particles.iter().filter_map(|source| single(case, source)).collect();
+    weighable(&scene)?;
     drop_unused_materials(&mut scene);
     let approaches = approaches(case, &scene)?;
-    steps(case, &mut scene, &approaches)?;
+    duration::steps(case, &mut scene, &approaches)?;
+    duration::travel(&scene)?;
     Ok(scene)
-}
-
-/// Refuses by name what the schema can say and this build does not compute.
-fn supported(case: &Case) -> Result<(), Problem> {
-    let refuse = |key: &str, value: String, what: &str| Err(Problem::new(key, value, format!("this version computes only {what}")));
-    if !matches!(case.geometry, Geometry::Spheres) {
-        return refuse("geometry", format!("{:?}", case.geometry), "spheres");
-    }
-    if !matches!(case.model.normal, NormalLaw::Hertz { .. }) {
-        return refuse("model.normal", format!("{:?}", case.model.normal), "the normal law `hertz`");
-    }
-    if case.model.tangential != TangentialLaw::Frictionless {
-        return refuse("model.tangential", format!("{:?}", case.model.tangential), "the tangential law `frictionless`");
-    }
-    if case.model.moments != MomentLaw::Free {
-        return refuse("model.moments", format!("{:?}", case.model.moments), "the moment law `free`");
-    }
-    if case.model.heat.is_some() {
-        return refuse("model.heat", format!("{:?}", case.model.heat), "cases without heat");
-    }
-    if let Some(start) = &case.start_from {
-        return refuse("start_from", start.case.clone(), "cases that state their particles");
-    }
-    if case.ensemble.is_some() {
-        return refuse("ensemble", "seeds".to_owned(), "cases without an ensemble");
-    }
-    for (axis, boundary) in case.domain.boundary.iter().enumerate() {
-        if *boundary != Boundary::Open {
-            return refuse(&format!("domain.boundary.{axis}"), format!("{boundary:?}"), "open boundaries");
-        }
-    }
-    for (i, source) in case.particles.iter().enumerate() {
-        if !matches!(source, ParticleSource::Single { .. }) {
-            return refuse(&format!("particles.{i}.kind"), format!("{source:?}"), "the kind `single`");
-        }
-    }
-    for (i, body) in case.bodies.iter().enumerate() {
-        if !matches!(body.shape, Shape::Plane { .. }) {
-            return refuse(&format!("bodies.{i}.shape"), format!("{:?}", body.shape), "planes");
-        }
-        if !matches!(body.motion, Motion::Fixed | Motion::Prescribed { .. }) {
-            return refuse(&format!("bodies.{i}.motion"), format!("{:?}", body.motion), "fixed and prescribed bodies");
-        }
-    }
-    if case.stages.len() != 1 || !case.stages[0].actions.is_empty() {
-        return refuse("stages", format!("{} stages", case.stages.len()), "one stage without actions");
-    }
-    Ok(())
 }
 
 fn solid(material: &super::schema::Material) -> Material {
@@ -265,7 +226,7 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
         let (damping_ratio, restitution) = match &pair.values.damping {
             Some(Damping::Restitution { value }) => (material::damping_ratio(value.get()), Some(value.get())),
             Some(Damping::Ratio { value }) => (value.get(), None),
-            Some(Damping::None) | None => (0.0, None),
+            Some(Damping::None {}) | None => (0.0, None),
         };
         let shear = material::effective_shear(first, second);
         PairProperties {
@@ -313,6 +274,23 @@ fn single(case: &Case, source: &ParticleSource) -> Option<SceneParticle> {
     })
 }
 
+/// A mass or a moment of inertia that underflows or overflows leaves the engine without an acceleration.
+fn weighable(scene: &Scene) -> Result<(), Problem> {
+    for (i, particle) in scene.particles.iter().enumerate() {
+        if !(particle.mass.is_normal() && particle.moment_of_inertia.is_normal()) {
+            return Err(Problem::new(
+                format!("particles.{i}.radius"),
+                format!("{:e} m", particle.radius),
+                format!(
+                    "gives a mass of {:e} kg and a moment of inertia of {:e} kg m2; both must be positive normal numbers",
+                    particle.mass, particle.moment_of_inertia
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
 /// A pair of bodies that moves together at the start: the law's view of it and its speed [m/s].
 struct StartApproach {
     law: PairLaw,
@@ -322,37 +300,50 @@ struct StartApproach {
 /// Every pair that approaches at the start; refuses overlaps that the case does not permit.
 fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem> {
     let mut found = Vec::new();
-    let mut add = |key: String, what: &str, geometry: ContactGeometry, mass: f64, materials: [usize; 2], velocity: Vector| {
-        if geometry.overlap > 0.0 && !case.allow_initial_overlap {
-            return Err(Problem::new(
-                key,
-                format!("overlap of {:e} m with {what}", geometry.overlap),
-                "particles start apart, or allow_initial_overlap = true permits it",
-            ));
-        }
-        let speed = -velocity.dot(&geometry.normal);
-        if let (true, Some(pair)) = (speed > 0.0, scene.pair(materials[0], materials[1])) {
-            found.push(StartApproach {
-                law: PairLaw {
-                    effective_young: pair.effective_young,
-                    effective_radius: geometry.effective_radius(),
-                    effective_mass: mass,
-                    damping_ratio: pair.damping_ratio,
-                },
-                speed,
-            });
-        }
-        Ok(())
-    };
+    let mut add =
+        |key: String, what: &str, geometry: ContactGeometry, mass: f64, materials: [usize; 2], velocity: Vector| {
+            if geometry.overlap > 0.0 && !case.allow_initial_overlap {
+                return Err(Problem::new(
+                    key,
+                    format!("overlap of {:e} m with {what}", geometry.overlap),
+                    "particles start apart, unless allow_initial_overlap = true",
+                ));
+            }
+            let speed = -velocity.dot(&geometry.normal);
+            if let (true, Some(pair)) = (speed > 0.0, scene.pair(materials[0], materials[1])) {
+                found.push(StartApproach {
+                    law: PairLaw {
+                        effective_young: pair.effective_young,
+                        effective_radius: geometry.effective_radius(),
+                        effective_mass: mass,
+                        damping_ratio: pair.damping_ratio,
+                    },
+                    speed,
+                });
+            }
+            Ok(())
+        };
     for (i, one) in scene.particles.iter().enumerate() {
         let key = format!("particles.{i}.position");
         let (center, velocity) = (Vector::from(one.position), Vector::from(one.velocity));
         for (j, other) in scene.particles.iter().enumerate().take(i) {
-            let Some(geometry) = geometry::sphere_sphere(center, one.radius, other.position.into(), other.radius) else {
-                return Err(Problem::new(key, format!("{:?}", one.position), format!("particle {j} has the same centre")));
+            let Some(geometry) = geometry::sphere_sphere(center, one.radius, other.position.into(), other.radius)
+            else {
+                return Err(Problem::new(
+                    key,
+                    format!("{:?}", one.position),
+                    format!("particle {j} is at the same place; two centres differ"),
+                ));
             };
             let mass = material::reduced(one.mass, other.mass);
-            add(key.clone(), &format!("particle {j}"), geometry, mass, [one.material, other.material], velocity - Vector::from(other.velocity))?;
+            add(
+                key.clone(),
+                &format!("particle {j}"),
+                geometry,
+                mass,
+                [one.material, other.material],
+                velocity - Vector::from(other.velocity),
+            )?;
         }
         for body in &scene.bodies {
             let SceneShape::Plane { point, normal } = &body.shape;
@@ -361,57 +352,17 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
                 SceneMotion::Prescribed { velocity } => Vector::from(*velocity),
                 SceneMotion::Fixed => Vector::zeros(),
             };
-            add(key.clone(), &format!("body {}", body.name), geometry, one.mass, [one.material, body.material], velocity - wall)?;
+            add(
+                key.clone(),
+                &format!("body {}", body.name),
+                geometry,
+                one.mass,
+                [one.material, body.material],
+                velocity - wall,
+            )?;
         }
     }
     Ok(found)
-}
-
-/// Chooses the time step and the number of steps.
-fn steps(case: &Case, scene: &mut Scene, approaches: &[StartApproach]) -> Result<(), Problem> {
-    let impact = approaches
-        .iter()
-        .map(|start| Hertz::elastic_impact(&start.law, start.speed).duration)
-        .reduce(f64::min)
-        .ok_or("nothing approaches anything at the start: there is no contact duration");
-    let rayleigh = scene
-        .particles
-        .iter()
-        .filter_map(|particle| scene.materials[particle.material].rayleigh_time(particle.radius))
-        .reduce(f64::min)
-        .unwrap_or(f64::INFINITY);
-    let (key, base) = match &case.time.step {
-        TimeStep::Fixed { value } => ("time.step.value", value.si()),
-        TimeStep::ContactFraction { steps_per_contact } => {
-            let key = "time.step.steps_per_contact";
-            let duration = impact.map_err(|why| Problem::new(key, steps_per_contact, why))?;
-            (key, duration / f64::from(*steps_per_contact))
-        }
-        TimeStep::RayleighFraction { fraction } => ("time.step.fraction", fraction.get() * rayleigh),
-    };
-    if base > rayleigh {
-        return Err(Problem::new(
-            key,
-            format!("{base} s"),
-            format!("above the stability limit: the Rayleigh time of the smallest particle is {rayleigh:e} s"),
-        ));
-    }
-    let length = match &case.stages[0].end {
-        End::Duration { value } => value.si(),
-        End::Contacts { value } => {
-            value.get() * impact.map_err(|why| Problem::new("stages.0.end", value.get(), why))?
-        }
-        End::AtRest { .. } => return Err(Problem::new("stages.0.end", "at_rest", "this version ends stages by time only")),
-    };
-    if length <= 0.0 {
-        return Err(Problem::new("stages.0.end.value", length, "must be positive"));
-    }
-    scene.time_step = base / 2f64.powi(i32::try_from(scene.refinement).unwrap_or_default());
-    let every = case.output.every;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive count far below 2^63")]
-    let samples = (length / base / every as f64).ceil() as u64;
-    scene.steps = samples * every << scene.refinement;
-    Ok(())
 }
 
 impl ForceCut {

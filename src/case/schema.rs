@@ -4,12 +4,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::measure::Observable;
 use super::model::{Model, PairValues};
 use super::protocol::{Body, Stage};
 use super::quantity::{
-    Acceleration, AngularSpeed, Conductivity, Density, Duration, Expansion, HeatCapacity, Length, Number, Pressure, Speed,
-    Temperature,
+    Acceleration, Conductivity, Density, Duration, Expansion, HeatCapacity, Length, Number, Pressure, Temperature,
 };
+use super::source::ParticleSource;
 
 /// The version of the case schema that this build reads.
 pub const SCHEMA: u32 = 1;
@@ -52,6 +53,8 @@ pub struct Case {
     pub particles: Vec<ParticleSource>,
     /// Another case's state to start from, in place of `particles`.
     pub start_from: Option<StartFrom>,
+    /// Temperature of all particles at the start [K], where the model or a stage asks for one.
+    pub temperature: Option<Temperature>,
     /// Permits particles that overlap each other or a body at the start.
     #[serde(default)]
     pub allow_initial_overlap: bool,
@@ -59,6 +62,9 @@ pub struct Case {
     pub time: TimeStepping,
     /// What happens, one stage after the other.
     pub stages: Vec<Stage>,
+    /// What is measured in a stage, beyond the observables that every record has.
+    #[serde(default)]
+    pub observables: Vec<Observable>,
     /// What is compared, and how far it may differ.
     #[serde(default)]
     pub gates: Vec<Gate>,
@@ -116,7 +122,7 @@ pub enum Suite {
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Geometry {
     /// Spheres in three dimensions.
-    Spheres,
+    Spheres {},
     /// Disks of one height that move in the x-z plane.
     Disks {
         /// Height of the disks [m].
@@ -163,7 +169,7 @@ pub struct Material {
     pub density: Option<Density>,
     /// Yield strength [Pa], for plastic laws.
     pub yield_strength: Option<Pressure>,
-    /// Thermal properties, for heated beds.
+    /// Thermal properties, where temperatures differ or change.
     pub thermal: Option<Thermal>,
 }
 
@@ -171,10 +177,12 @@ pub struct Material {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Thermal {
-    /// Thermal conductivity [W/(m K)].
-    pub conductivity: Conductivity,
-    /// Specific heat capacity [J/(kg K)].
-    pub heat_capacity: HeatCapacity,
+    /// Thermal conductivity [W/(m K)], for laws of heat exchange.
+    pub conductivity: Option<Conductivity>,
+    /// Specific heat capacity [J/(kg K)], for laws of heat exchange.
+    pub heat_capacity: Option<HeatCapacity>,
+    /// Young's modulus of the spots that conduct [Pa], for laws of heat exchange: `young` may be softened, this is not.
+    pub contact_young: Option<Pressure>,
     /// Linear thermal expansion of the radius [1/K].
     pub expansion: Expansion,
     /// Temperature at which the radii are given [K].
@@ -191,79 +199,9 @@ pub struct Pair {
     pub values: PairValues,
 }
 
-/// A source of particles.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum ParticleSource {
-    /// One particle.
-    Single {
-        /// Name of the material.
-        material: String,
-        /// Radius [m].
-        radius: Length,
-        /// Centre [m].
-        position: [Length; 3],
-        /// Velocity [m/s].
-        velocity: [Speed; 3],
-        /// Angular velocity [rad/s].
-        angular_velocity: [AngularSpeed; 3],
-    },
-    /// Particles at random places without overlap, from the seed of the ensemble.
-    Random {
-        /// Name of the material.
-        material: String,
-        /// Number of particles.
-        count: u32,
-        /// Radii.
-        radius: RadiusDistribution,
-        /// Lower and upper corner of the region of the centres [m].
-        region: [[Length; 3]; 2],
-        /// Largest component of the uniform random velocity [m/s].
-        velocity: Speed,
-    },
-    /// A cubic lattice with noise, from the seed of the ensemble.
-    Lattice {
-        /// Name of the material.
-        material: String,
-        /// Particles along each axis.
-        count: [u32; 3],
-        /// Radii.
-        radius: RadiusDistribution,
-        /// Centre of the first particle [m].
-        origin: [Length; 3],
-        /// Distance of neighbours [m].
-        spacing: Length,
-        /// Largest displacement along each axis [m].
-        noise: Length,
-    },
-    /// Particles of a file with the columns x, y, z, radius.
-    File {
-        /// Name of the material.
-        material: String,
-        /// Path relative to the case file.
-        path: String,
-    },
-}
-
-/// Distribution of radii.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum RadiusDistribution {
-    /// One radius.
-    Equal {
-        /// Radius [m].
-        value: Length,
-    },
-    /// Uniform between two radii.
-    Uniform {
-        /// Smallest radius [m].
-        min: Length,
-        /// Largest radius [m].
-        max: Length,
-    },
-}
-
-/// The state of another case at the end of one of its stages.
+/// The state of another case in one of its stages: particles, contacts with what they remember, temperatures, what the
+/// law shares, and the places and velocities of the bodies. Everything else is what this case states; a body that it
+/// does not state is gone. A member of an ensemble starts from the member with its seed.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartFrom {
@@ -272,9 +210,9 @@ pub struct StartFrom {
     /// Name of its variant, empty if it has none.
     #[serde(default)]
     pub variant: String,
-    /// Name of the stage whose end is the start.
+    /// Name of the stage.
     pub stage: String,
-    /// Time after the beginning of that stage, if not its end [s].
+    /// Time after the beginning of that stage [s]; its end if absent.
     pub at: Option<Duration>,
 }
 
@@ -314,7 +252,7 @@ pub enum TimeStep {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gate {
-    /// Name of an observable.
+    /// Name of an observable: one of the case, or one that every record has.
     pub quantity: String,
     /// What is compared with what.
     pub check: Check,
@@ -344,7 +282,7 @@ pub enum Check {
     Prediction,
     /// The native engine against itself at half the time step.
     Convergence,
-    /// Equivalence of ensemble means.
+    /// Equivalence of ensemble means within the bound.
     Equivalence,
 }
 

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use toml::{Table, Value};
 
+use super::CaseText;
 use super::schema::{Case, Vary};
 use crate::error::{Error, Problem};
 
@@ -13,6 +14,9 @@ pub struct Variant {
     pub name: String,
     /// Axis, label and position of each point.
     pub points: Vec<Point>,
+    /// Index of the point on each axis.
+    #[serde(skip)]
+    pub chosen: Vec<usize>,
     /// The case at this point.
     #[serde(skip)]
     pub case: Case,
@@ -29,51 +33,83 @@ pub struct Point {
     pub at: Option<f64>,
 }
 
-/// Replaces keys by `key=value` overrides; a value that is not TOML is taken as a string.
-pub fn override_keys(table: &mut Table, overrides: &[String]) -> Result<(), Problem> {
-    for text in overrides {
-        let Some((key, value)) = text.split_once('=') else {
-            return Err(Problem::new(text, "nothing", "an override has the form key=value"));
-        };
-        let value = format!("value = {value}")
-            .parse::<Table>()
-            .ok()
-            .and_then(|mut table| table.remove("value"))
-            .unwrap_or_else(|| Value::String(value.to_owned()));
-        replace(table, key.trim(), value)?;
+impl Variant {
+    /// How messages name it: its points, or nothing for a case without sweeps.
+    #[must_use]
+    pub fn origin(&self) -> String {
+        if self.name.is_empty() { String::new() } else { format!("variant {}", self.name) }
     }
-    Ok(())
+}
+
+/// A key replaced on the command line.
+#[derive(Clone, Debug)]
+pub struct Override {
+    /// Path of the key.
+    pub key: String,
+    /// The new value.
+    pub value: Value,
+}
+
+impl Override {
+    /// How messages name it.
+    pub fn origin(&self) -> String {
+        format!("override {}={}", self.key, self.value)
+    }
+}
+
+/// Reads overrides of the form `key=value`; a value that is not TOML is taken as a string.
+pub fn parse_overrides(overrides: &[String]) -> Result<Vec<Override>, Problem> {
+    let read = |text: &String| {
+        let malformed = || Problem::new("override", text, "expected the form key=value");
+        let (key, value) = text.split_once('=').ok_or_else(malformed)?;
+        let (key, value) = (key.trim(), value.trim());
+        if key.is_empty() || value.is_empty() || key.split('.').any(str::is_empty) {
+            return Err(malformed());
+        }
+        let typed = format!("value = {value}").parse::<Table>().ok().and_then(|mut table| table.remove("value"));
+        Ok(Override { key: key.to_owned(), value: typed.unwrap_or_else(|| Value::String(value.to_owned())) })
+    };
+    overrides.iter().map(read).collect()
 }
 
 /// Every combination of the points of all axes, read and typed.
-pub fn variants(file: &str, table: &Table, case: &Case) -> Result<Vec<Variant>, Error> {
-    combinations(&case.vary)
-        .into_iter()
-        .map(|choice| {
-            let mut table = table.clone();
-            let mut points = Vec::new();
-            for (axis, index) in case.vary.iter().zip(choice) {
-                let point = &axis.points[index];
-                for (key, value) in &point.set {
-                    replace(&mut table, key, value.clone()).map_err(|problem| Error::Invalid {
-                        file: format!("{file} ({})", point.label),
-                        line: 0,
-                        problem,
-                    })?;
-                }
-                points.push(Point {
-                    axis: axis.axis.clone(),
-                    label: point.label.clone(),
-                    at: point.at.map(super::quantity::Number::get),
-                });
-            }
-            let name = points.iter().map(|point| point.label.as_str()).collect::<Vec<_>>().join(",");
-            let case = table
-                .try_into()
-                .map_err(|error: toml::de::Error| Error::Parse { file: format!("{file} ({name})"), message: error.to_string() })?;
-            Ok(Variant { name, points, case })
-        })
-        .collect()
+pub fn variants(text: &CaseText, table: &Table, case: &Case) -> Result<Vec<Variant>, Error> {
+    combinations(&case.vary).into_iter().map(|chosen| variant(text, table, case, &chosen)).collect()
+}
+
+fn variant(text: &CaseText, base: &Table, case: &Case, chosen: &[usize]) -> Result<Variant, Error> {
+    let mut table = base.clone();
+    let mut points = Vec::new();
+    let chosen_points = || case.vary.iter().zip(chosen).map(|(axis, index)| (axis, &axis.points[*index]));
+    for (axis, point) in chosen_points() {
+        points.push(Point {
+            axis: axis.axis.clone(),
+            label: point.label.clone(),
+            at: point.at.map(super::quantity::Number::get),
+        });
+    }
+    let name = points.iter().map(|point| point.label.as_str()).collect::<Vec<_>>().join(",");
+    let mut variant = Variant { name, points, chosen: chosen.to_vec(), case: case.clone() };
+    for (key, value) in chosen_points().flat_map(|(_, point)| &point.set) {
+        replace(&mut table, key, value.clone()).map_err(|problem| text.invalid(Some(&variant), problem))?;
+    }
+    variant.case = match table.try_into() {
+        Ok(case) => case,
+        Err(error) => {
+            let sets = || chosen_points().flat_map(|(_, point)| &point.set);
+            let key = sets().find(|(key, value)| !alone(base, key, value)).or_else(|| sets().last());
+            let key = key.map_or_else(String::new, |(key, _)| key.clone());
+            let place = text.place(Some(&variant), &key);
+            return Err(Error::Malformed { place, key, message: toml::de::Error::message(&error).to_owned() });
+        }
+    };
+    Ok(variant)
+}
+
+/// Whether the case is still one with this key replaced and no other.
+pub fn alone(base: &Table, key: &str, value: &Value) -> bool {
+    let mut table = base.clone();
+    replace(&mut table, key, value.clone()).is_ok() && table.try_into::<Case>().is_ok()
 }
 
 /// Indices of the points, the last axis running fastest.
@@ -87,7 +123,7 @@ fn combinations(axes: &[Vary]) -> Vec<Vec<usize>> {
 }
 
 /// Puts `value` at a path such as `pairs.0.values.friction`; all but its last part must exist.
-fn replace(table: &mut Table, key: &str, value: Value) -> Result<(), Problem> {
+pub fn replace(table: &mut Table, key: &str, value: Value) -> Result<(), Problem> {
     let shown = value.to_string();
     let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
     let failed = match rest {
@@ -101,7 +137,11 @@ fn replace(table: &mut Table, key: &str, value: Value) -> Result<(), Problem> {
         },
     };
     failed.map_or(Ok(()), |part| {
-        Err(Problem::new(key, shown, format!("there is no `{part}` in the case to replace a key of")))
+        Err(Problem::new(
+            key,
+            shown,
+            format!("the case has no `{part}` there; a path names keys that stand in the case"),
+        ))
     })
 }
 

@@ -36,7 +36,13 @@ impl Ledger {
     }
 
     /// Measures the energies of a state; `velocity` and `angular` are synchronized with the positions.
-    pub fn measure<H>(&mut self, particles: &Particles, contacts: &Contacts<H>, gravity: &crate::Vector, synchronized: &Synchronized) {
+    pub fn measure<H>(
+        &mut self,
+        particles: &Particles,
+        contacts: &Contacts<H>,
+        gravity: &crate::Vector,
+        synchronized: &Synchronized,
+    ) {
         self.kinetic = 0.0;
         self.gravity = 0.0;
         for i in 0..particles.len() {

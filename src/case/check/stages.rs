@@ -1,0 +1,197 @@
+//! Stages with their actions, and what is measured in them.
+
+use super::{Checker, is_name};
+use crate::case::measure::{Measure, Region};
+use crate::case::model::NormalLaw;
+use crate::case::protocol::{Action, Course, End, HeatTarget};
+use crate::case::quantity::Duration;
+use crate::case::schema::Check;
+
+impl Checker<'_> {
+    pub(super) fn stages(&mut self) {
+        let case = self.case;
+        if case.stages.is_empty() {
+            self.add("stages", "[]", "a case has at least one stage");
+        }
+        self.distinct("stages", case.stages.iter().map(|stage| &stage.name));
+        for (i, stage) in case.stages.iter().enumerate() {
+            self.end(&format!("stages.{i}.end"), &stage.end);
+            if let Some(output) = &stage.output {
+                self.every(format!("stages.{i}.output.every"), output.every);
+            }
+            let timed = matches!(stage.end, End::Duration { .. } | End::Contacts { .. });
+            for (j, action) in stage.actions.iter().enumerate() {
+                self.action(&format!("stages.{i}.actions.{j}"), action);
+                let over = match action {
+                    Action::Strain { .. } => "strain",
+                    Action::RampTemperature { .. } => "ramp_temperature",
+                    Action::RampLoad { .. } => "ramp_load",
+                    _ => continue,
+                };
+                if !timed {
+                    let allowed =
+                        "lasts the whole stage, so that the stage ends by time: end = { kind = \"duration\" }";
+                    self.add(format!("stages.{i}.actions.{j}.do"), over, allowed);
+                }
+            }
+        }
+        self.temperatures();
+    }
+
+    fn end(&mut self, at: &str, end: &End) {
+        let at_most = |check: &mut Self, value: Duration| check.positive(format!("{at}.at_most"), value);
+        match end {
+            End::Duration { value } => self.positive(format!("{at}.value"), *value),
+            End::Contacts { value } => {
+                self.number(format!("{at}.value"), *value, |value| value > 0.0, "must be positive");
+            }
+            End::AtRest { kinetic_energy, at_most: limit } => {
+                let key = format!("{at}.kinetic_energy");
+                self.number(&key, *kinetic_energy, |value| value > 0.0, "must be positive");
+                if self.case.gravity.iter().all(|component| component.si() == 0.0) {
+                    self.add(key, kinetic_energy.get(), "its unit m g d needs gravity; kind = \"balanced\" needs none");
+                }
+                at_most(self, *limit);
+            }
+            End::Balanced { ratio, at_most: limit } => {
+                self.number(format!("{at}.ratio"), *ratio, |value| value > 0.0, "must be positive");
+                at_most(self, *limit);
+            }
+            End::Load { body, load, at_most: limit, .. } => {
+                self.known_body(format!("{at}.body"), body);
+                self.load(&format!("{at}.load"), load);
+                at_most(self, *limit);
+            }
+        }
+    }
+
+    fn action(&mut self, at: &str, action: &Action) {
+        match action {
+            Action::SetPair { between, values } => {
+                self.between(&format!("{at}.between"), between);
+                self.pair_values(&format!("{at}.values"), values);
+            }
+            Action::SetMotion { body, motion } => {
+                self.known_body(format!("{at}.body"), body);
+                self.motion(&format!("{at}.motion"), motion);
+            }
+            Action::Remove { body } => self.known_body(format!("{at}.body"), body),
+            Action::Strain { body, from, strain } => {
+                self.known_body(format!("{at}.body"), body);
+                self.known_body(format!("{at}.from"), from);
+                self.number(format!("{at}.strain"), *strain, |value| value < 1.0, "must be below 1");
+            }
+            Action::RampTemperature { target, to } => {
+                if let HeatTarget::Body { name } = target {
+                    self.known_body(format!("{at}.target.name"), name);
+                }
+                self.positive(format!("{at}.to"), *to);
+            }
+            Action::RampLoad { body, to } => {
+                self.known_body(format!("{at}.body"), body);
+                self.load(&format!("{at}.to"), to);
+            }
+            Action::SetRelaxationTime { value } => self.positive(format!("{at}.value"), *value),
+            Action::SetGravity { .. } => {}
+            Action::SetDrag { rate } => self.not_negative(format!("{at}.rate"), *rate),
+            Action::Deposit { particles } => self.source(&format!("{at}.particles"), particles),
+            Action::Drive { particle, course, .. } => {
+                let stated = self.case.particles.len();
+                if !self.case.particles.iter().any(crate::case::source::ParticleSource::makes_many)
+                    && *particle as usize >= stated
+                {
+                    self.add(format!("{at}.particle"), particle, format!("the case states {stated} particles, from 0"));
+                }
+                if let Course::Sinusoid { frequency } = course {
+                    self.positive(format!("{at}.course.frequency"), *frequency);
+                }
+            }
+        }
+    }
+
+    /// A temperature of the start is stated where something asks for it.
+    fn temperatures(&mut self) {
+        let case = self.case;
+        if let Some(temperature) = case.temperature {
+            self.positive("temperature", temperature);
+        }
+        let heated =
+            |action: &Action| matches!(action, Action::RampTemperature { target: HeatTarget::Particles {}, .. });
+        let asked = case.model.heat.is_some()
+            || matches!(case.model.normal, NormalLaw::LudingSintering { .. })
+            || case.stages.iter().flat_map(|stage| &stage.actions).any(heated);
+        match (&case.start_from, case.temperature) {
+            (None, None) if asked => {
+                self.add("temperature", "nothing", "the model or a stage needs it: a temperature in K");
+            }
+            (Some(_), Some(temperature)) => {
+                self.add("temperature", format!("{temperature:?}"), "a case with start_from takes it from there");
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn observables(&mut self) {
+        let case = self.case;
+        let stages: Vec<_> = case.stages.iter().map(|stage| stage.name.as_str()).collect();
+        for (i, observable) in case.observables.iter().enumerate() {
+            let key = |name: &str| format!("observables.{i}.{name}");
+            self.known(key("stage"), &observable.stage, "stage", &stages);
+            let allowed = |value| (0.0..=1.0).contains(&value);
+            self.number(key("average"), observable.average, allowed, "a share of the stage, in [0, 1]");
+            self.measure(&key("measure"), &observable.measure);
+        }
+        self.distinct("observables", case.observables.iter().map(|observable| &observable.name));
+        let names: Vec<_> = case.observables.iter().map(|observable| observable.name.as_str()).collect();
+        for (i, gate) in case.gates.iter().enumerate() {
+            if gate.check == Check::Equivalence {
+                self.known(format!("gates.{i}.quantity"), &gate.quantity, "observable in this case", &names);
+            } else if !is_name(&gate.quantity, "-_") {
+                self.add(format!("gates.{i}.quantity"), &gate.quantity, "a name has letters, digits, `-` and `_`");
+            }
+        }
+    }
+
+    fn measure(&mut self, at: &str, measure: &Measure) {
+        match measure {
+            Measure::PackingFraction { region, .. }
+            | Measure::Coordination { region }
+            | Measure::Temperature { region } => {
+                self.measured_region(&format!("{at}.region"), region);
+            }
+            Measure::WallForce { body, direction } | Measure::WallStress { body, direction } => {
+                self.known_body(format!("{at}.body"), body);
+                self.direction(format!("{at}.direction"), direction);
+            }
+            Measure::WallLineStress { body, direction, between } => {
+                self.known_body(format!("{at}.body"), body);
+                self.direction(format!("{at}.direction"), direction);
+                self.two_bodies(at, between);
+            }
+            Measure::Distance { between } => self.two_bodies(at, between),
+            Measure::HeatFlow { body } => self.known_body(format!("{at}.body"), body),
+            Measure::NormalForces { .. } | Measure::Overlaps { .. } | Measure::LargestFragment {} => {}
+        }
+    }
+
+    fn two_bodies(&mut self, at: &str, names: &[String; 2]) {
+        for (side, name) in names.iter().enumerate() {
+            self.known_body(format!("{at}.between.{side}"), name);
+        }
+    }
+
+    fn measured_region(&mut self, at: &str, region: &Region) {
+        match region {
+            Region::Everything {} => {}
+            Region::Box { min, max } => {
+                let keys = [format!("{at}.min"), format!("{at}.max")];
+                self.corners([&keys[0], &keys[1]], min, max);
+            }
+            Region::Bed { floor, above_floor, below_surface } => {
+                self.known_body(format!("{at}.floor"), floor);
+                self.not_negative(format!("{at}.above_floor"), *above_floor);
+                self.not_negative(format!("{at}.below_surface"), *below_surface);
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The time step and the number of steps of a scene.
+
+use super::{Scene, SceneMotion, StartApproach};
+use crate::Vector;
+use crate::case::protocol::End;
+use crate::case::schema::{Case, TimeStep};
+use crate::error::Problem;
+use crate::laws::normal::hertz::Hertz;
+
+/// Most steps of one run: beyond it a number was mistyped.
+pub const MOST_STEPS: f64 = 1e9;
+/// Most numbers of one record, 8 GB.
+const MOST_VALUES: f64 = 1e9;
+
+/// Chooses the time step and the number of steps.
+pub fn steps(case: &Case, scene: &mut Scene, approaches: &[StartApproach]) -> Result<(), Problem> {
+    let impact = approaches
+        .iter()
+        .map(|start| Hertz::elastic_impact(&start.law, start.speed).duration)
+        .reduce(f64::min)
+        .ok_or("nothing approaches anything at the start, so that no contact has a duration; state a time in s");
+    let rayleigh = scene
+        .particles
+        .iter()
+        .filter_map(|particle| scene.materials[particle.material].rayleigh_time(particle.radius))
+        .reduce(f64::min)
+        .unwrap_or(f64::INFINITY);
+    let (key, base) = match &case.time.step {
+        TimeStep::Fixed { value } => ("time.step.value", value.si()),
+        TimeStep::ContactFraction { steps_per_contact } => {
+            let key = "time.step.steps_per_contact";
+            let duration = impact.map_err(|why| Problem::new(key, steps_per_contact, why))?;
+            (key, duration / f64::from(*steps_per_contact))
+        }
+        TimeStep::RayleighFraction { fraction } => ("time.step.fraction", fraction.get() * rayleigh),
+    };
+    if base > rayleigh {
+        let allowed =
+            format!("above the stability limit: the Rayleigh time of the smallest particle is {rayleigh:e} s");
+        return Err(Problem::new(key, format!("{base} s"), allowed));
+    }
+    let length = match &case.stages[0].end {
+        End::Duration { value } => value.si(),
+        End::Contacts { value } => {
+            value.get() * impact.map_err(|why| Problem::new("stages.0.end.value", value.get(), why))?
+        }
+        // Every other end is refused by name before.
+        _ => 0.0,
+    };
+    let refined = f64::from(1u32 << scene.refinement);
+    scene.time_step = base / refined;
+    if !scene.time_step.is_normal() {
+        return Err(Problem::new(key, format!("{base:e} s"), "a time step is a positive normal number"));
+    }
+    let samples = (length / base / case.output.every as f64).ceil();
+    let steps = samples * case.output.every as f64 * refined;
+    if !(1.0..=MOST_STEPS).contains(&steps) {
+        let allowed = format!("makes {steps:e} steps of {:e} s, from 1 to {MOST_STEPS:e} are allowed", scene.time_step);
+        return Err(Problem::new("stages.0.end.value", format!("{length:e} s"), allowed));
+    }
+    let values = samples * (16 * scene.particles.len() + 3 * scene.bodies.len() + 8) as f64;
+    if values > MOST_VALUES {
+        let allowed = format!("makes a record of {values:e} values, at most {MOST_VALUES:e} are allowed");
+        return Err(Problem::new("output.every", case.output.every, allowed));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST_STEPS")]
+    let steps = steps as u64;
+    scene.steps = steps;
+    Ok(())
+}
+
+/// Nothing moves further than the smallest radius in one step at the start: contacts would be missed.
+pub fn travel(scene: &Scene) -> Result<(), Problem> {
+    let radii = scene.particles.iter().map(|particle| particle.radius);
+    let Some(smallest) = radii.reduce(f64::min) else { return Ok(()) };
+    let dt = scene.time_step;
+    let far = |length: f64| length.is_nan() || length > smallest;
+    let allowed = |length: f64| {
+        format!("moves by {length:e} m in a step of {dt:e} s, at most the smallest radius of {smallest:e} m is allowed")
+    };
+    let weight = Vector::from(scene.gravity).norm() * dt * dt;
+    if far(weight) {
+        return Err(Problem::new("gravity", format!("{:?} m/s2", scene.gravity), allowed(weight)));
+    }
+    let particles = scene.particles.iter().enumerate();
+    let particles = particles.map(|(i, particle)| (format!("particles.{i}.velocity"), particle.velocity));
+    let walls = scene.bodies.iter().enumerate().filter_map(|(i, body)| match &body.motion {
+        SceneMotion::Prescribed { velocity } => Some((format!("bodies.{i}.motion.velocity"), *velocity)),
+        SceneMotion::Fixed => None,
+    });
+    for (key, velocity) in particles.chain(walls) {
+        let length = Vector::from(velocity).norm() * dt;
+        if far(length) {
+            return Err(Problem::new(key, format!("{velocity:?} m/s"), allowed(length)));
+        }
+    }
+    Ok(())
+}

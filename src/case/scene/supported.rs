@@ -1,0 +1,93 @@
+//! What this build computes of what the schema can say.
+
+use crate::case::model::{MomentLaw, NormalLaw, TangentialLaw};
+use crate::case::protocol::{End, Motion, Shape, Stage};
+use crate::case::schema::{Boundary, Case, Check, Geometry};
+use crate::case::source::ParticleSource;
+use crate::case::tag;
+use crate::error::Problem;
+
+fn refuse(key: impl Into<String>, value: impl ToString, what: &str) -> Result<(), Problem> {
+    Err(Problem::new(key, value, format!("this version computes only {what}")))
+}
+
+/// Refuses by name what the schema can say and this build does not compute.
+pub fn supported(case: &Case) -> Result<(), Problem> {
+    if !matches!(case.geometry, Geometry::Spheres {}) {
+        return refuse("geometry.kind", tag(&case.geometry, "kind"), "`spheres`");
+    }
+    for (axis, boundary) in case.domain.boundary.iter().enumerate() {
+        if *boundary != Boundary::Open {
+            return refuse(format!("domain.boundary.{axis}"), "periodic", "`open` boundaries");
+        }
+    }
+    model(case)?;
+    if let Some(start) = &case.start_from {
+        return refuse("start_from.case", &start.case, "cases that state their particles");
+    }
+    for (i, source) in case.particles.iter().enumerate() {
+        if !matches!(source, ParticleSource::Single { .. }) {
+            return refuse(format!("particles.{i}.kind"), tag(source, "kind"), "`single` particles");
+        }
+    }
+    for (i, body) in case.bodies.iter().enumerate() {
+        if !matches!(body.shape, Shape::Plane { .. }) {
+            return refuse(format!("bodies.{i}.shape.kind"), tag(&body.shape, "kind"), "the shape `plane`");
+        }
+        if !matches!(body.motion, Motion::Fixed {} | Motion::Prescribed { .. }) {
+            return refuse(
+                format!("bodies.{i}.motion.kind"),
+                tag(&body.motion, "kind"),
+                "`fixed` and `prescribed` bodies",
+            );
+        }
+    }
+    if let Some(ensemble) = &case.ensemble {
+        return refuse("ensemble.seeds", format!("{:?}", ensemble.seeds), "cases without an ensemble");
+    }
+    stages(&case.stages)?;
+    if let Some(observable) = case.observables.first() {
+        return refuse("observables.0.name", &observable.name, "the observables that every record has");
+    }
+    match case.gates.iter().position(|gate| gate.check == Check::Equivalence) {
+        Some(i) => refuse(format!("gates.{i}.check"), "equivalence", "gates on single runs"),
+        None => Ok(()),
+    }
+}
+
+fn model(case: &Case) -> Result<(), Problem> {
+    let model = &case.model;
+    if !matches!(model.normal, NormalLaw::Hertz { .. }) {
+        return refuse("model.normal.law", tag(&model.normal, "law"), "`hertz`");
+    }
+    if !matches!(model.tangential, TangentialLaw::Frictionless {}) {
+        return refuse("model.tangential.law", tag(&model.tangential, "law"), "`frictionless`");
+    }
+    if !matches!(model.moments, MomentLaw::Free {}) {
+        return refuse("model.moments.law", tag(&model.moments, "law"), "`free`");
+    }
+    match &model.heat {
+        Some(heat) => refuse("model.heat.law", tag(heat, "law"), "cases without heat"),
+        None => Ok(()),
+    }
+}
+
+fn stages(stages: &[Stage]) -> Result<(), Problem> {
+    for (i, stage) in stages.iter().enumerate() {
+        if let Some(action) = stage.actions.first() {
+            return refuse(format!("stages.{i}.actions.0.do"), tag(action, "do"), "stages without actions");
+        }
+        if !matches!(stage.end, End::Duration { .. } | End::Contacts { .. }) {
+            let kind = tag(&stage.end, "kind");
+            return refuse(format!("stages.{i}.end.kind"), kind, "stages that end by `duration` or `contacts`");
+        }
+        if let Some(output) = &stage.output {
+            let key = format!("stages.{i}.output.every");
+            return refuse(key, output.every, "cases with one sampling interval, [output]");
+        }
+    }
+    match stages.get(1) {
+        Some(stage) => refuse("stages.1.name", &stage.name, "cases of one stage"),
+        None => Ok(()),
+    }
+}

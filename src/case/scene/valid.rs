@@ -1,0 +1,99 @@
+//! Scenes that come from elsewhere than a case: checked before they run.
+
+use std::collections::HashSet;
+
+use super::duration::MOST_STEPS;
+use super::{SCHEMA, Scene, SceneShape};
+use crate::Vector;
+use crate::error::Error;
+
+impl Scene {
+    /// Checks what the engine takes for granted.
+    ///
+    /// # Errors
+    /// The scene is of another version, or an index, a number or a pair is not what a run needs.
+    pub fn check(&self) -> Result<(), Error> {
+        self.problem().map_or(Ok(()), |reason| Err(Error::Scene { scene: self.name(), reason }))
+    }
+
+    fn problem(&self) -> Option<String> {
+        if self.schema != SCHEMA {
+            return Some(format!("schema = {}: this build reads schema {SCHEMA}", self.schema));
+        }
+        if !(self.time_step.is_normal() && self.time_step > 0.0) {
+            return Some(format!("time_step = {} s: must be positive", self.time_step));
+        }
+        if self.steps as f64 > MOST_STEPS {
+            return Some(format!("steps = {}: at most {MOST_STEPS:e}", self.steps));
+        }
+        if self.output_every == 0 {
+            return Some("output_every = 0: at least 1".to_owned());
+        }
+        self.indices().or_else(|| self.numbers()).or_else(|| self.missing_pair())
+    }
+
+    fn indices(&self) -> Option<String> {
+        let count = self.materials.len();
+        let sides = |(i, between): (usize, [usize; 2])| between.map(|at| (format!("pairs.{i}.between"), at));
+        let pairs = self.pairs.iter().map(|pair| pair.between).enumerate().flat_map(sides);
+        let bodies = self.bodies.iter().enumerate().map(|(i, body)| (format!("bodies.{i}.material"), body.material));
+        let particles = self.particles.iter().enumerate();
+        let particles = particles.map(|(i, particle)| (format!("particles.{i}.material"), particle.material));
+        let (key, at) = pairs.chain(bodies).chain(particles).find(|(_, at)| *at >= count)?;
+        Some(format!("{key} = {at}: there are {count} materials, counted from 0"))
+    }
+
+    fn numbers(&self) -> Option<String> {
+        let positive = |value: f64| value.is_normal() && value > 0.0;
+        for (i, pair) in self.pairs.iter().enumerate() {
+            if !positive(pair.effective_young) {
+                return Some(format!("pairs.{i}.effective_young = {} Pa: must be positive", pair.effective_young));
+            }
+            if pair.damping_ratio < 0.0 {
+                return Some(format!("pairs.{i}.damping_ratio = {}: must not be negative", pair.damping_ratio));
+            }
+        }
+        for (i, body) in self.bodies.iter().enumerate() {
+            let SceneShape::Plane { normal, .. } = &body.shape;
+            if (Vector::from(*normal).norm() - 1.0).abs() > 1e-9 {
+                return Some(format!("bodies.{i}.shape.normal = {normal:?}: must have the length 1"));
+            }
+        }
+        let mut places = HashSet::new();
+        for (i, particle) in self.particles.iter().enumerate() {
+            let values = [
+                ("radius", particle.radius, "m"),
+                ("mass", particle.mass, "kg"),
+                ("moment_of_inertia", particle.moment_of_inertia, "kg m2"),
+            ];
+            if let Some((name, value, unit)) = values.into_iter().find(|(_, value, _)| !positive(*value)) {
+                return Some(format!("particles.{i}.{name} = {value} {unit}: must be positive"));
+            }
+            // `+ 0.0` makes one zero of two.
+            if !places.insert(particle.position.map(|coordinate| (coordinate + 0.0).to_bits())) {
+                return Some(format!("particles.{i}.position = {:?}: another particle is there", particle.position));
+            }
+        }
+        None
+    }
+
+    /// A contact without a pair would have no force.
+    fn missing_pair(&self) -> Option<String> {
+        let mut counts = vec![0u64; self.materials.len()];
+        for particle in &self.particles {
+            counts[particle.material] += 1;
+        }
+        let present = || counts.iter().enumerate().filter(|(_, count)| **count > 0);
+        for (first, count) in present() {
+            let partners = present().map(|(second, _)| second).filter(|second| *second != first || *count > 1);
+            let mut partners = partners.chain(self.bodies.iter().map(|body| body.material));
+            if let Some(second) = partners.find(|second| self.pair(first, *second).is_none()) {
+                let (first, second) = (&self.materials[first].name, &self.materials[second].name);
+                return Some(format!(
+                    "pairs: nothing between {first} and {second}, which can touch; every such pair is stated"
+                ));
+            }
+        }
+        None
+    }
+}
