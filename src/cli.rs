@@ -160,12 +160,15 @@ fn run_case(scene: &Scene, threads: usize, folder: &Path, progress: &ProgressBar
 fn summary(scene: &Scene, recorder: &Recorder) -> serde_json::Value {
     let last = |name| recorder.last(name).unwrap_or_default();
     let largest = |name| recorder.values(name).iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let total = last("energy_kinetic") + last("energy_elastic") + last("energy_gravity");
-    let first = ["energy_kinetic", "energy_elastic", "energy_gravity"]
-        .iter()
-        .map(|name| recorder.values(name).first().copied().unwrap_or_default())
-        .sum::<f64>();
-    let residual = total + last("energy_viscous") - last("energy_body_work") - first;
+    let balance = |sample: usize| {
+        let column = |name| recorder.values(name).get(sample).copied().unwrap_or_default();
+        column("energy_kinetic") + column("energy_elastic") + column("energy_gravity") + column("energy_viscous")
+            - column("energy_body_work")
+    };
+    let samples = recorder.values("time").len();
+    let largest_residual = (0..samples).map(|sample| (balance(sample) - balance(0)).abs()).fold(0.0, f64::max);
+    let entered = last("energy_entered");
+    let residual = (entered > 0.0).then(|| largest_residual / entered);
     let value = |value: f64, unit: &str| json!({"value": value, "unit": unit});
     json!({
         "scene": scene.name(),
@@ -176,7 +179,7 @@ fn summary(scene: &Scene, recorder: &Recorder) -> serde_json::Value {
             "kinetic_energy": value(last("energy_kinetic"), "J"),
             "elastic_energy": value(last("energy_elastic"), "J"),
             "viscous_dissipation": value(last("energy_viscous"), "J"),
-            "energy_residual": value(residual, "J"),
+            "energy_residual": json!({"value": residual, "unit": "-"}),
         },
     })
 }
