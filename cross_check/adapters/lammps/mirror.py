@@ -1,12 +1,34 @@
-"""The engine options that reproduce LAMMPS: no cut unless asked, planes without curvature, synchronized start."""
+"""The engine options that reproduce LAMMPS (design.md section 4)."""
 
 from __future__ import annotations
 
+from cross_check.adapters import laws as contact_laws
 from cross_check.adapters.capability import mirrored
-from cross_check.adapters.lammps.translate import force_cut
+from cross_check.adapters.lammps.laws import force_cut, history
+from cross_check.mirror_options import Arms, Mirror, TangentialOptions
 from cross_check.scene import Scene
 
 
+def _tangential(scene: Scene) -> TangentialOptions:
+    """A cap on elastic and damping parts together, full radii in the slip velocity, and in the torque of walls."""
+    adhesive = scene.model.normal.law == "dmt"
+    return TangentialOptions(
+        history=history(scene),
+        rotation="projection_rescaled",
+        order="rotate_first",
+        increment="present",
+        cap="total",
+        friction="twice_pull_off" if adhesive else "total",
+        pair_arms=Arms("radius", "mid_overlap"),
+        wall_arms=Arms("radius", "radius"),
+    )
+
+
 def mirror(scene: Scene) -> Scene:
-    """`scene` as the native engine must run it to repeat LAMMPS."""
-    return mirrored(scene, force_cut(scene), plane_radius_factor=None, start="synchronized")
+    """`scene` as the native engine must run it to repeat LAMMPS: no cut unless asked, planes without curvature."""
+    options = Mirror(
+        plane_radius_factor=None,
+        start="synchronized",
+        tangential=_tangential(scene) if contact_laws.frictional(scene) else None,
+    )
+    return mirrored(scene, force_cut(scene), options)

@@ -1,12 +1,32 @@
-"""The engine options that reproduce LIGGGHTS: no cut unless asked, planes without curvature, synchronized start."""
+"""The engine options that reproduce LIGGGHTS (design.md section 4)."""
 
 from __future__ import annotations
 
+from cross_check.adapters import laws as contact_laws
 from cross_check.adapters.capability import mirrored
-from cross_check.adapters.liggghts.translate import force_cut
+from cross_check.adapters.liggghts.laws import force_cut
+from cross_check.mirror_options import Arms, Mirror, TangentialOptions
 from cross_check.scene import Scene
+
+MID = Arms("mid_overlap", "mid_overlap")
+# A displacement that grows, is then projected on the contact plane; a cap on the elastic part, which sees no cohesion.
+TANGENTIAL = TangentialOptions(
+    history="displacement",
+    rotation="projection",
+    order="increment_first",
+    increment="present",
+    cap="elastic",
+    friction="without_adhesion",
+    pair_arms=MID,
+    wall_arms=MID,
+)
 
 
 def mirror(scene: Scene) -> Scene:
-    """`scene` as the native engine must run it to repeat LIGGGHTS."""
-    return mirrored(scene, force_cut(scene), plane_radius_factor=None, start="synchronized")
+    """`scene` as the native engine must run it to repeat LIGGGHTS: no cut unless asked, planes without curvature."""
+    options = Mirror(
+        plane_radius_factor=None,
+        start="synchronized",
+        tangential=TANGENTIAL if contact_laws.frictional(scene) else None,
+    )
+    return mirrored(scene, force_cut(scene), options)

@@ -1,0 +1,248 @@
+"""The contacts of LIGGGHTS, YADE and LAMMPS re-stated from their formulas, without a look at the adapters.
+
+Kick and drift: forces of step n see x(n) and v(n - 1/2). The normal points from j (a particle or a plane) to i.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cross_check.contact_model import LinearHistory, LinearSpringDashpot, Mindlin
+from cross_check.scene import Pair, Scene
+
+Array = NDArray[np.float64]
+
+
+@dataclass
+class Contact:
+    """Kinematics of one contact at one step."""
+
+    pair: Pair
+    normal: Array
+    overlap: float
+    radii: tuple[float, float]
+    reduced_radius: float
+    mass: float
+    velocity: Array
+    spins: tuple[Array, Array]
+    wall: bool
+    masses: tuple[float, float]
+
+    @property
+    def approach(self) -> float:
+        """Normal velocity, positive when approaching [m/s]."""
+        return -float(self.velocity @ self.normal)
+
+    @property
+    def spot(self) -> float:
+        """Radius of the contact spot [m]."""
+        return math.sqrt(self.reduced_radius * self.overlap)
+
+    def arms(self, rule: str) -> tuple[float, float]:
+        """Arms of both sides [m]; `half`: R - d/2, `full`: R, `plane`: R - d."""
+        lost = {"half": 0.5, "full": 0.0, "plane": 1.0}[rule] * self.overlap
+        own, other = self.radii
+        return own - lost, 0.0 if self.wall else other - lost
+
+    def slip(self, rule: str) -> Array:
+        """Slip velocity [m/s]."""
+        own, other = self.arms(rule)
+        through = self.velocity - self.normal * float(self.velocity @ self.normal)
+        return through - np.cross(own * self.spins[0] + other * self.spins[1], self.normal)
+
+
+@dataclass
+class Memory:
+    """What a contact remembers."""
+
+    shear: Array = field(default_factory=lambda: np.zeros(3))
+    normal: Array | None = None
+    spot: float = 0.0
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """Normal force [N] and its elastic part, tangential stiffness [N/m] and dashpot constant [kg/s]."""
+
+    force: float
+    elastic: float
+    shear: float
+    dashpot: float
+
+
+def length(vector: Array) -> float:
+    """Length of a vector."""
+    return math.sqrt(float(vector @ vector))
+
+
+def stiffness(scene: Scene, contact: Contact, cut: bool) -> Stiffness:
+    """Normal force, tangential stiffness and dashpot constant of the laws of the scene."""
+    normal, tangential, pair = scene.model.normal, scene.model.tangential, contact.pair
+    if isinstance(normal, LinearSpringDashpot):
+        elastic = normal.stiffness * contact.overlap
+        force = elastic + normal.dashpot * contact.approach
+        linear = tangential if isinstance(tangential, LinearHistory) else LinearHistory("", 0.0, 0.0)
+        shear, dashpot = linear.stiffness_ratio * normal.stiffness, linear.dashpot
+    else:
+        elastic = 4 / 3 * pair.effective_young * contact.spot * contact.overlap
+        critical = 2 * math.sqrt(5 / 6) * pair.damping_ratio
+        tangent = 2 * pair.effective_young * contact.spot
+        force = elastic + critical * math.sqrt(tangent * contact.mass) * contact.approach
+        shear = 8 * (pair.effective_shear or 0.0) * contact.spot
+        dashpot = critical * math.sqrt(shear * contact.mass)
+    return Stiffness(max(force, 0.0) if cut else force, elastic, shear, dashpot)
+
+
+def turned(memory: Memory, vector: Array, contact: Contact, dt: float) -> Array:
+    """YADE: two small turns, with the old normal."""
+    if memory.normal is None:
+        return vector
+    vector = vector - np.cross(vector, np.cross(memory.normal, contact.normal))
+    twist = 0.5 * dt * float(memory.normal @ (contact.spins[0] + contact.spins[1]))
+    return vector - np.cross(vector, twist * memory.normal)
+
+
+def flattened(vector: Array, normal: Array, negligible: float) -> Array:
+    """LAMMPS: projected on the contact plane and stretched to the old length, unless it hardly leaves the plane."""
+    along = float(vector @ normal)
+    if abs(along) <= negligible:
+        return vector
+    flat = vector - along * normal
+    return flat * (length(vector) / length(flat)) if length(flat) > 0 else np.zeros(3)
+
+
+def liggghts_shear(contact: Contact, law: Stiffness, limit: float, memory: Memory, dt: float) -> Array:
+    """A displacement that grows, then is projected; a capped spring loses its dashpot."""
+    slip = contact.slip("half")
+    grown = memory.shear + slip * dt
+    memory.shear = grown - contact.normal * float(grown @ contact.normal)
+    force = -law.shear * memory.shear
+    if length(force) > limit:
+        force = force * (limit / length(force))
+        memory.shear = -force / law.shear
+        return force
+    return force - law.dashpot * slip
+
+
+def yade_shear(contact: Contact, law: Stiffness, limit: float, memory: Memory, dt: float) -> Array:
+    """A force that turns, then grows; a capped spring loses its dashpot."""
+    slip = contact.slip("plane" if contact.wall else "half")
+    memory.shear = turned(memory, memory.shear, contact, dt) - law.shear * dt * slip
+    if length(memory.shear) > limit:
+        memory.shear = memory.shear * (limit / length(memory.shear))
+        return memory.shear
+    return memory.shear - law.dashpot * slip
+
+
+def lammps_shear(contact: Contact, law: Stiffness, limit: float, memory: Memory, dt: float, history: str) -> Array:
+    """A displacement (or force) that turns, then grows; the cap holds spring and dashpot together."""
+    slip, force = contact.slip("full"), history.startswith("force")
+    if history == "force_rescaled" and contact.spot < memory.spot:
+        memory.shear = memory.shear * (contact.spot / memory.spot)
+    memory.spot = contact.spot
+    scale = 1.0 if force else law.shear
+    kept = flattened(memory.shear, contact.normal, 1e-10 * limit / scale)
+    memory.shear = kept - law.shear * dt * slip if force else kept + slip * dt
+    total = (memory.shear if force else -law.shear * memory.shear) - law.dashpot * slip
+    if length(total) > limit:
+        total = total * (limit / length(total))
+        spring = total + law.dashpot * slip
+        memory.shear = spring if force else -spring / law.shear
+    return total
+
+
+def shear_force(scene: Scene, code: str, contact: Contact, law: Stiffness, memory: Memory) -> Array:
+    """Tangential force on i [N]."""
+    if scene.model.tangential.law == "frictionless":
+        return np.zeros(3)
+    limit = (contact.pair.friction or 0.0) * abs(law.force)
+    if code == "liggghts":
+        return liggghts_shear(contact, law, limit, memory, scene.time_step)
+    if code == "yade":
+        return yade_shear(contact, law, limit, memory, scene.time_step)
+    tangential = scene.model.tangential
+    history = tangential.history if isinstance(tangential, Mindlin) else "displacement"
+    return lammps_shear(contact, law, limit, memory, scene.time_step, history)
+
+
+def torque_arms(code: str, contact: Contact) -> tuple[float, float]:
+    """Arms of the tangential force [m]."""
+    if contact.wall and code != "liggghts":
+        return contact.arms("plane" if code == "yade" else "full")
+    return contact.arms("half")
+
+
+def contacts(scene: Scene, code: str, x: Array, v: Array, w: Array) -> list[tuple[int, int | None, Contact]]:
+    """Every contact: index of i, index of j or None at a plane, kinematics. Key of the memory: order of this list."""
+    found: list[tuple[int, int | None, Contact]] = []
+    items = scene.particles
+    for i, one in enumerate(items):
+        for j, other in enumerate(items[:i]):
+            between = x[i] - x[j]
+            distance = length(between)
+            pair = scene.pair(one.material, other.material)
+            assert pair is not None
+            radii, masses = (one.radius, other.radius), (one.mass, other.mass)
+            reduced = [a * b / (a + b) for a, b in (radii, masses)]
+            overlap = sum(radii) - distance
+            spins = (w[i], w[j])
+            contact = Contact(
+                pair, between / distance, overlap, radii, reduced[0], reduced[1], v[i] - v[j], spins, False, masses
+            )
+            found.append((i, j, contact))
+        for body in scene.bodies:
+            pair = scene.pair(one.material, body.material)
+            assert pair is not None
+            normal, point = np.array(body.shape.normal), np.array(body.shape.point)
+            overlap = one.radius - float((x[i] - point) @ normal)
+            velocity = v[i] - np.array(body.motion.velocity or (0.0, 0.0, 0.0))
+            radius = one.radius * 1e8 / (1 + 1e8) if code == "yade" else one.radius
+            radii, masses = (one.radius, 1e8 * one.radius), (one.mass, math.inf)
+            spins = (w[i], np.zeros(3))
+            contact = Contact(pair, normal, overlap, radii, radius, one.mass, velocity, spins, True, masses)
+            found.append((i, None, contact))
+    return found
+
+
+def integrate(scene: Scene, code: str, cut: bool) -> tuple[Array, Array, Array]:
+    """Positions [m], contact forces [N] and torques [N m] at every step, shape (steps + 1, N, 3)."""
+    dt, gravity = scene.time_step, np.array(scene.gravity)
+    x = np.array([p.position for p in scene.particles])
+    v = np.array([p.velocity for p in scene.particles]) - 0.5 * dt * gravity
+    w = np.array([p.angular_velocity for p in scene.particles])
+    mass = np.array([[p.mass] for p in scene.particles])
+    inertia = np.array([[p.moment_of_inertia] for p in scene.particles])
+    places, forces, torques = (np.zeros((scene.steps + 1, *x.shape)) for _ in range(3))
+    memories: dict[tuple[int, int], Memory] = {}
+    for n in range(scene.steps + 1):
+        f, t = forces[n], torques[n]
+        places[n] = x
+        for place, (i, j, contact) in enumerate(contacts(scene, code, x, v, w)):
+            if contact.overlap <= 0:
+                memories.pop((i, place), None)
+                continue
+            memory = memories.setdefault((i, place), Memory())
+            force, moment_i, moment_j = act(scene, code, contact, memory, cut)
+            f[i] += force
+            t[i] += moment_i
+            if j is not None:
+                f[j] -= force
+                t[j] += moment_j
+        v = v + dt * (f / mass + gravity)
+        w = w + dt * t / inertia
+        x = x + dt * v
+    return places, forces, torques
+
+
+def act(scene: Scene, code: str, contact: Contact, memory: Memory, cut: bool) -> tuple[Array, Array, Array]:
+    """Force on i [N], torques on i and j [N m]."""
+    law = stiffness(scene, contact, cut)
+    shear = shear_force(scene, code, contact, law, memory)
+    memory.normal = contact.normal
+    own, other = torque_arms(code, contact)
+    bent = np.cross(contact.normal, shear)
+    return law.force * contact.normal + shear, -own * bent, -other * bent
