@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from cross_check.adapters.capability import SAME, pair_key, stiffness_of
@@ -135,3 +136,33 @@ def rolling(scene: Scene) -> ElasticPlasticRolling | None:
     """The rolling spring of the model, if it has one."""
     law = scene.model.moments
     return law if isinstance(law, ElasticPlasticRolling) else None
+
+
+def radii(scene: Scene, pair: Pair, plane_factor: float) -> set[tuple[float, float]]:
+    """Radii [m] of both sides of every contact that a pair can have; a plane is `plane_factor` times its sphere."""
+    i, j = pair.between
+    sizes: dict[int, list[float]] = {i: [], j: []}
+    for particle in scene.particles:
+        if particle.material in sizes:
+            sizes[particle.material].append(particle.radius)
+    alone = i == j and len(sizes[i]) == 1
+    found = {(max(a, b), min(a, b)) for a in sizes[i] for b in sizes[j]} if not alone else set[tuple[float, float]]()
+    walls = {body.material for body in scene.bodies}
+    for own, other in ((i, j), (j, i)):
+        if other in walls:
+            found |= {(radius * plane_factor, radius) for radius in sizes[own]}
+    return found
+
+
+def effective_radius(both: tuple[float, float]) -> float:
+    """R* [m]; that of a sphere itself where the other side is infinite."""
+    large, small = both
+    return small if math.isinf(large) else large * small / (large + small)
+
+
+def one_value(values: set[float], what: str) -> float:
+    """The value that all contacts share, up to rounding; NotComparable where they do not."""
+    if not values or max(values) - min(values) > SAME * abs(max(values)):
+        listed = ", ".join(number(value) for value in sorted(values))
+        raise NotComparable(f"{what} must be the same for all contacts, here it would be {listed or 'none'}")
+    return max(values)

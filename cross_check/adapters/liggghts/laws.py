@@ -8,12 +8,12 @@ LIGGGHTS from the moduli of both materials. `limitForce on` cuts the sum at zero
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from cross_check.adapters import capability, laws
 from cross_check.adapters.interface import NotComparable, Row
 from cross_check.adapters.liggghts import moments
+from cross_check.adapters.liggghts.properties import matrix, pair_rows
 from cross_check.adapters.render import number, numbers
 from cross_check.contact_model import AreaCohesion, LinearHistory, LinearSpringDashpot, LudingHysteretic
 from cross_check.scene import Pair, Scene
@@ -28,7 +28,6 @@ KNOWN = laws.Known(
 # What LIGGGHTS accepts as coefficientRestitution.
 RESTITUTION = (0.05, 1.0)
 HISTORIES = ("displacement",)
-Values = dict[tuple[int, int], str]
 
 
 @dataclass(frozen=True)
@@ -72,32 +71,9 @@ def words(scene: Scene) -> Words:
         settings=normal.settings + rolling.settings + (" limitForce on" if cut == "on" else ""),
         comment=f"{normal.comment}, {friction}{rolling.comment}",
         properties=normal.properties + tangential.properties + rolling.properties,
-        material_rows=normal.material_rows + tangential.material_rows + rolling.rows,
-        model_rows=[*normal.model_rows, limit, *tangential.model_rows],
+        material_rows=normal.material_rows + tangential.material_rows + rolling.pair_rows,
+        model_rows=[*normal.model_rows, limit, *tangential.model_rows, *rolling.rows],
     )
-
-
-def matrix(scene: Scene, fix: str, key: str, values: Values, never: str) -> list[str]:
-    """The command of a symmetric property over atom types; pairs that never touch get `never`."""
-    kinds = range(len(scene.materials))
-    rows = [" ".join(values.get((min(i, j), max(i, j)), never) for j in kinds) for i in kinds]
-    head = f"fix {fix} all property/global {key} peratomtypepair {len(rows)} &"
-    return [head, *(f"    {row} &" for row in rows[:-1]), f"    {rows[-1]}"]
-
-
-def pair_rows(
-    scene: Scene, pairs: list[Pair], name: str, code_key: str, value: Callable[[Pair], float], unit: str = "-"
-) -> tuple[Values, list[Row]]:
-    """A value of every pair as stated: the entries of its matrix and the rows of the translation."""
-    values: Values = {}
-    rows: list[Row] = []
-    for pair in pairs:
-        text = values[pair.between] = number(value(pair))
-        i, j = (index + 1 for index in pair.between)
-        rows.append(
-            Row(f"{capability.pair_key(scene, pair)}.{name}", text, f"{code_key} {i} {j}", text, unit, "as stated")
-        )
-    return values, rows
 
 
 def _restitution_row(scene: Scene, pair: Pair) -> Row:

@@ -26,8 +26,6 @@ KNOWN = laws.Known(
     moments=("free", "elastic_plastic_rolling"),
 )
 HISTORIES = ("force",)
-# Radius that Ig2_Wall_Sphere_ScGeom(hertzian=True) gives a wall, in radii of the sphere [-].
-PLANE_RADIUS_FACTOR = 1e8
 
 
 @dataclass(frozen=True)

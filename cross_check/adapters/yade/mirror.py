@@ -3,9 +3,19 @@
 from __future__ import annotations
 
 from cross_check.adapters import laws as contact_laws
-from cross_check.adapters.capability import mirrored
-from cross_check.adapters.yade.laws import PLANE_RADIUS_FACTOR, force_cut
-from cross_check.mirror_options import Arms, Mirror, TangentialOptions
+from cross_check.adapters.capability import mirrored, touching
+from cross_check.adapters.yade import moments
+from cross_check.adapters.yade.laws import force_cut
+from cross_check.adapters.yade.moments import PLANE_RADIUS_FACTOR
+from cross_check.contact_model import RollingDashpot, RollingStiffness
+from cross_check.mirror_options import (
+    Arms,
+    Mirror,
+    RollingOptions,
+    TangentialOptions,
+    TwistingOptions,
+    TwistingSpring,
+)
 from cross_check.scene import Scene
 
 
@@ -23,11 +33,39 @@ def _tangential(scene: Scene) -> TangentialOptions:
     )
 
 
+def _rolling(scene: Scene) -> RollingOptions | None:
+    """A moment that small angles turn, of constant stiffness; eta is chosen so that the cap is that of R*."""
+    law = contact_laws.rolling(scene)
+    if law is None:
+        return None
+    return RollingOptions(
+        stiffness=RollingStiffness("constant", moments.stiffness(scene, law, touching(scene))),
+        limit=law.limit,
+        dashpot=RollingDashpot("none"),
+        history="force",
+        rotation="small_angles",
+        cap="total",
+        torsion=False,
+        stretched_at_walls=False,
+    )
+
+
+def _twisting(scene: Scene) -> TwistingOptions | None:
+    """A moment that small angles turn, never capped."""
+    law = contact_laws.rolling(scene)
+    if law is None or law.twisting.kind == "none":
+        return None
+    spring = TwistingSpring("constant", law.twisting.stiffness, 0.0, None)
+    return TwistingOptions(spring, "force", "small_angles", "elastic")
+
+
 def mirror(scene: Scene) -> Scene:
     """`scene` as the native engine must run it to repeat YADE: walls as spheres of 1e8 radii, half-step velocities."""
     options = Mirror(
         plane_radius_factor=PLANE_RADIUS_FACTOR,
         start="staggered",
         tangential=_tangential(scene) if contact_laws.frictional(scene) else None,
+        rolling=_rolling(scene),
+        twisting=_twisting(scene),
     )
     return mirrored(scene, force_cut(scene), options)
