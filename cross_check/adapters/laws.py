@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, replace
 
 from cross_check.adapters.capability import SAME, pair_key, stiffness_of
 from cross_check.adapters.interface import InvalidScene, NotComparable
@@ -16,8 +17,9 @@ from cross_check.contact_model import (
     NormalModel,
     TangentialModel,
 )
-from cross_check.scene import Pair, Scene
+from cross_check.scene import Pair, Particle, Scene, Vector
 
+ORIGIN: Vector = (0.0, 0.0, 0.0)
 FORCE_CUTS = ("on", "off", "default")
 HISTORIES = ("displacement", "force", "force_rescaled")
 
@@ -138,20 +140,30 @@ def rolling(scene: Scene) -> ElasticPlasticRolling | None:
     return law if isinstance(law, ElasticPlasticRolling) else None
 
 
+def _sides(scene: Scene, pair: Pair) -> tuple[set[tuple[Particle, Particle]], set[Particle]]:
+    """Kinds of particles, by radius and mass, that a pair of materials brings together, and those it has at bodies."""
+    i, j = pair.between
+    kinds = {index: Counter[Particle]() for index in (i, j)}
+    for particle in scene.particles:
+        if particle.material in kinds:
+            kinds[particle.material][replace(particle, position=ORIGIN, velocity=ORIGIN, angular_velocity=ORIGIN)] += 1
+    together = {(a, b) for a in kinds[i] for b in kinds[j] if i != j or a != b or kinds[i][a] > 1}
+    walls = {body.material for body in scene.bodies}
+    alone = {kind for own, other in ((i, j), (j, i)) if other in walls for kind in kinds[own]}
+    return together, alone
+
+
 def radii(scene: Scene, pair: Pair, plane_factor: float) -> set[tuple[float, float]]:
     """Radii [m] of both sides of every contact that a pair can have; a plane is `plane_factor` times its sphere."""
-    i, j = pair.between
-    sizes: dict[int, list[float]] = {i: [], j: []}
-    for particle in scene.particles:
-        if particle.material in sizes:
-            sizes[particle.material].append(particle.radius)
-    alone = i == j and len(sizes[i]) == 1
-    found = {(max(a, b), min(a, b)) for a in sizes[i] for b in sizes[j]} if not alone else set[tuple[float, float]]()
-    walls = {body.material for body in scene.bodies}
-    for own, other in ((i, j), (j, i)):
-        if other in walls:
-            found |= {(radius * plane_factor, radius) for radius in sizes[own]}
-    return found
+    together, alone = _sides(scene, pair)
+    found = {(max(a.radius, b.radius), min(a.radius, b.radius)) for a, b in together}
+    return found | {(kind.radius * plane_factor, kind.radius) for kind in alone}
+
+
+def reduced_masses(scene: Scene, pair: Pair) -> set[float]:
+    """Reduced mass [kg] of every contact that a pair can have; a particle's own mass at a body."""
+    together, alone = _sides(scene, pair)
+    return {a.mass * b.mass / (a.mass + b.mass) for a, b in together} | {kind.mass for kind in alone}
 
 
 def effective_radius(both: tuple[float, float]) -> float:

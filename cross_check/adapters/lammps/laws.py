@@ -71,6 +71,10 @@ def check(scene: Scene) -> None:
     """Raises NotComparable or InvalidScene for a model without translation."""
     laws.check(scene, KNOWN)
     normal, law = scene.model.normal, scene.model.tangential
+    if normal.law == "dmt" and law.law != "frictionless":
+        raise NotComparable(
+            "this version of LAMMPS forms the friction cap of dmt from a variable that it never sets: frictionless only"
+        )
     linear = isinstance(law, LinearHistory) and isinstance(normal, LinearSpringDashpot)
     if linear and law.dashpot > 0 and normal.dashpot == 0:
         raise NotComparable("LAMMPS states the tangential dashpot as a multiple of the normal one, which is 0")

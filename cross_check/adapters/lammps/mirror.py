@@ -18,14 +18,13 @@ from cross_check.scene import Scene
 
 def _tangential(scene: Scene) -> TangentialOptions:
     """A cap on elastic and damping parts together, full radii in the slip velocity, and in the torque of walls."""
-    adhesive = scene.model.normal.law == "dmt"
     return TangentialOptions(
         history=history(scene),
         rotation="projection_rescaled",
         order="rotate_first",
         increment="present",
         cap="total",
-        friction="twice_pull_off" if adhesive else "total",
+        friction="total",
         pair_arms=Arms("radius", "mid_overlap"),
         wall_arms=Arms("radius", "radius"),
     )

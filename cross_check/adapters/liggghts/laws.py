@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from cross_check.adapters import capability, laws
 from cross_check.adapters.interface import NotComparable, Row
-from cross_check.adapters.liggghts import moments
+from cross_check.adapters.liggghts import luding, moments
 from cross_check.adapters.liggghts.properties import matrix, pair_rows
 from cross_check.adapters.render import number, numbers
 from cross_check.contact_model import AreaCohesion, LinearHistory, LinearSpringDashpot, LudingHysteretic
@@ -43,7 +43,10 @@ class Words:
 
 
 def force_cut(scene: Scene) -> str:
-    """`on` or `off`; LIGGGHTS does not cut when nothing is said."""
+    """`on` or `off`; LIGGGHTS does not cut when nothing is said, and never cuts a hysteretic law that is cohesive."""
+    law = scene.model.normal
+    if isinstance(law, LudingHysteretic) and law.kc > 0:
+        return "off"
     return capability.resolved_cut(scene, default="off")
 
 
@@ -141,7 +144,8 @@ def _elastic(scene: Scene, pairs: list[Pair]) -> Words:
 def _normal(scene: Scene, pairs: list[Pair]) -> Words:
     law = scene.model.normal
     if isinstance(law, LudingHysteretic):
-        return _luding(scene, pairs, law)
+        properties, rows = luding.words(scene, pairs, law)
+        return Words("luding", "", "k1, kp, kc with hysteresis", properties, [], rows)
     return _linear(scene, law) if isinstance(law, LinearSpringDashpot) else _elastic(scene, pairs)
 
 
@@ -194,7 +198,3 @@ def _tangential(scene: Scene, pairs: list[Pair]) -> Words:
         for pair in pairs:
             laws.check_effective_shear(scene, pair, NAME)
     return Words(" tangential history", "", "", properties, rows, model_rows)
-
-
-def _luding(scene: Scene, pairs: list[Pair], law: LudingHysteretic) -> Words:
-    raise NotComparable("later")

@@ -56,5 +56,6 @@ def mirror(scene: Scene) -> Scene:
         tangential=TANGENTIAL if contact_laws.frictional(scene) else None,
         rolling=_rolling(scene),
         opposed=_opposed(scene),
+        hysteresis="old_stiffness" if scene.model.normal.law == "luding_hysteretic" else None,
     )
     return mirrored(scene, force_cut(scene), options)

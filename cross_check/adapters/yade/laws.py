@@ -75,7 +75,7 @@ def words(scene: Scene) -> Words:
     pairs = capability.touching(scene)
     law = scene.model.normal
     if isinstance(law, LudingHysteretic):
-        return _luding(scene, pairs, law)
+        return _luding(scene, law)
     if isinstance(law, LinearSpringDashpot):
         return _linear(scene, pairs, law)
     return _mindlin(scene, pairs)
@@ -242,5 +242,32 @@ def _linear(scene: Scene, pairs: list[Pair], law: LinearSpringDashpot) -> Words:
     )
 
 
-def _luding(scene: Scene, pairs: list[Pair], law: LudingHysteretic) -> Words:
-    raise NotComparable("later")
+def _luding(scene: Scene, law: LudingHysteretic) -> Words:
+    """LudingMat: pairs get the harmonic mean of both materials, which are equal here."""
+    if scene.model.moments.law != "free" or laws.frictional(scene):
+        raise NotComparable("friction and moments beside luding_hysteretic have no translation in YADE (known: none)")
+    # G0 damps the shear too, which ks = 0 and no friction leave without a force.
+    values = {"k1": law.k1, "kp": law.kp, "kc": law.kc, "ks": 0.0, "PhiF": law.plasticity_depth, "G0": law.dashpot}
+    text = ", ".join(f"{key}={number(value)}" for key, value in values.items())
+    rows = [Row("model.normal.law", law.law, "Law2", "ScGeom_LudingPhys_Basic", "-", "walls are elastic with kp")]
+    for name, key, unit in (
+        ("k1", "k1", "N/m"),
+        ("kp", "kp", "N/m"),
+        ("kc", "kc", "N/m"),
+        ("plasticity_depth", "PhiF", "-"),
+        ("dashpot", "G0", "kg/s"),
+    ):
+        stated = number(values[key])
+        rows.append(Row(f"model.normal.{name}", stated, f"LudingMat {key}", stated, unit, "as stated"))
+    return Words(
+        material="LudingMat",
+        physics="Ip2_LudingMat_LudingMat_LudingPhys",
+        law="Law2_ScGeom_LudingPhys_Basic",
+        constructors=_constructors(scene, "LudingMat", lambda _: f"{text}, frictionAngle=0"),
+        matchers=[],
+        physics_words="",
+        law_words="",
+        comment="k1, kp, kc with hysteresis",
+        material_rows=[],
+        model_rows=[*rows, _cut_row(scene)],
+    )

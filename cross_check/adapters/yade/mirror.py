@@ -67,5 +67,7 @@ def mirror(scene: Scene) -> Scene:
         tangential=_tangential(scene) if contact_laws.frictional(scene) else None,
         rolling=_rolling(scene),
         twisting=_twisting(scene),
+        dashpot_limit="pull_off" if scene.model.normal.law == "dmt" else None,
+        hysteresis="luding_pm" if scene.model.normal.law == "luding_hysteretic" else None,
     )
     return mirrored(scene, force_cut(scene), options)

@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from cross_check.contact_model import (
+    FRICTIONLESS,
+    AreaCohesion,
     ConstantTorque,
     ElasticPlasticRolling,
     LinearHistory,
     LinearSpringDashpot,
+    LudingHysteretic,
     Mindlin,
     Model,
     MomentModel,
@@ -133,3 +136,48 @@ def moment_laws() -> dict[str, dict[str, MomentModel]]:
             "spot": rolling(("per_radius_squared", 1e4), ("per_radius_squared", 0.01), TwistingModel("spot")),
         },
     }
+
+
+def adhesive_scenes(code: str) -> dict[str, Scene]:
+    """Oblique collisions under the adhesive laws that a code has."""
+    found: dict[str, Scene] = {}
+    for place, whole in (("pair", scenes.oblique_pair()), ("floor", spinning_floor())):
+        if code == "liggghts":
+            for law in ("sjkr", "sjkr2"):
+                for cut in ("on", "off"):
+                    model = Model(AreaCohesion(law, cut, 2e5), MINDLIN)
+                    name = f"{law}/{cut}/{place}"
+                    found[name] = with_laws(whole, model, name, friction=0.3)
+        else:
+            # LAMMPS reads an unset variable in the friction cap of dmt: at a wall it was seen to be (R - d)^2.
+            tangential = MINDLIN if code == "yade" else FRICTIONLESS
+            model, name = Model(NormalModel("dmt", "default"), tangential), f"dmt/{place}"
+            # Strong enough for the dashpot of YADE to meet its limit, weak enough for a rebound.
+            found[name] = with_laws(whole, model, name, friction=0.3, work_of_adhesion=0.5)
+    return found
+
+
+def luding_scenes() -> dict[str, Scene]:
+    """Impacts of the hysteretic law: below and beyond the plastic range, without and with a dashpot, and at a plane.
+
+    Spheres that stick go on bouncing on the cohesive branch, unloading and loading again.
+    """
+    found: dict[str, Scene] = {}
+    pair, floor = scenes.pair("off"), replace(scenes.floor(), gravity=scenes.ZERO)
+    for name, whole, speed, kc, dashpot, depth in (
+        ("part", pair, 1.0, 200.0, 0.0, 0.05),
+        ("stick", pair, 0.3, 3000.0, 0.0, 0.05),
+        ("damped", pair, 0.5, 500.0, 0.2, 0.05),
+        ("limit", pair, 1.0, 500.0, 0.0, 0.01),
+        ("floor", floor, 1.0, 500.0, 0.0, 0.05),
+    ):
+        law = LudingHysteretic(
+            "luding_hysteretic", "off", k1=5e3, kp=2e4, kc=kc, plasticity_depth=depth, dashpot=dashpot
+        )
+        slowed = tuple(
+            replace(p, velocity=(p.velocity[0] * speed, p.velocity[1] * speed, p.velocity[2] * speed))
+            for p in whole.particles
+        )
+        scene = replace(whole, particles=slowed, steps=6000)
+        found[name] = with_laws(scene, Model(law), f"luding/{name}")
+    return found

@@ -9,29 +9,12 @@ import math
 
 import numpy as np
 
-from cross_check.contact_model import LinearHistory, LinearSpringDashpot, Mindlin
+from cross_check.contact_model import Mindlin
 from cross_check.scene import Scene
 
 from .restated_contact import Array, Contact, Memory, Stiffness, flattened, length, turned
 from .restated_moments import MOMENTS
-
-
-def stiffness(scene: Scene, contact: Contact, cut: bool) -> Stiffness:
-    """Normal force, tangential stiffness and dashpot constant of the laws of the scene."""
-    normal, tangential, pair = scene.model.normal, scene.model.tangential, contact.pair
-    if isinstance(normal, LinearSpringDashpot):
-        elastic = normal.stiffness * contact.overlap
-        force = elastic + normal.dashpot * contact.approach
-        linear = tangential if isinstance(tangential, LinearHistory) else LinearHistory("", 0.0, 0.0)
-        shear, dashpot = linear.stiffness_ratio * normal.stiffness, linear.dashpot
-    else:
-        elastic = 4 / 3 * pair.effective_young * contact.spot * contact.overlap
-        critical = 2 * math.sqrt(5 / 6) * pair.damping_ratio
-        tangent = 2 * pair.effective_young * contact.spot
-        force = elastic + critical * math.sqrt(tangent * contact.mass) * contact.approach
-        shear = 8 * (pair.effective_shear or 0.0) * contact.spot
-        dashpot = critical * math.sqrt(shear * contact.mass)
-    return Stiffness(max(force, 0.0) if cut else force, elastic, shear, dashpot)
+from .restated_normal import stiffness
 
 
 def liggghts_shear(contact: Contact, law: Stiffness, limit: float, memory: Memory, dt: float) -> Array:
@@ -78,7 +61,7 @@ def shear_force(scene: Scene, code: str, contact: Contact, law: Stiffness, memor
     """Tangential force on i [N]."""
     if scene.model.tangential.law == "frictionless":
         return np.zeros(3)
-    limit = (contact.pair.friction or 0.0) * abs(law.force)
+    limit = (contact.pair.friction or 0.0) * abs(law.seen)
     if code == "liggghts":
         return liggghts_shear(contact, law, limit, memory, scene.time_step)
     if code == "yade":
@@ -159,7 +142,7 @@ def integrate(scene: Scene, code: str, cut: bool) -> tuple[Array, Array, Array]:
 
 def act(scene: Scene, code: str, contact: Contact, memory: Memory, cut: bool) -> tuple[Array, Array, Array]:
     """Force on i [N], torques on i and j [N m]."""
-    law = stiffness(scene, contact, cut)
+    law = stiffness(scene, code, contact, memory, cut)
     shear = shear_force(scene, code, contact, law, memory)
     moment = MOMENTS[code](scene, contact, law, memory)
     memory.normal = contact.normal

@@ -59,15 +59,19 @@ class Memory:
     rolling: Array = field(default_factory=lambda: np.zeros(3))
     twist: Array = field(default_factory=lambda: np.zeros(3))
     angle: float = 0.0
+    largest: float = 0.0
+    offset: float = 0.0
+    last: float = 0.0
     normal: Array | None = None
     spot: float = 0.0
 
 
 @dataclass(frozen=True)
 class Stiffness:
-    """Normal force [N] and its elastic part, tangential stiffness [N/m] and dashpot constant [kg/s]."""
+    """Normal force [N], what friction sees of it, its elastic part; tangential stiffness [N/m] and dashpot [kg/s]."""
 
     force: float
+    seen: float
     elastic: float
     shear: float
     dashpot: float

@@ -36,7 +36,7 @@ def liggghts_moment(scene: Scene, contact: Contact, law: Stiffness, memory: Memo
         secant = law.elastic / contact.overlap
         spring = (moments.stiffness.value or 0.0) * secant * friction**2 * radius**2
     memory.rolling = memory.rolling - spring * scene.time_step * rate
-    limit = abs(law.force) * radius * friction
+    limit = abs(law.seen) * radius * friction
     if length(memory.rolling) > limit:
         memory.rolling = memory.rolling * (limit / length(memory.rolling))
         return memory.rolling
@@ -72,7 +72,7 @@ def lammps_moment(scene: Scene, contact: Contact, law: Stiffness, memory: Memory
     spring = value / radius**2 if moments.stiffness.kind == "constant" else value
     dashpot = moments.dashpot.value or 0.0
     rate = radius * np.cross(spin, contact.normal)
-    limit = (pair.rolling_friction or 0.0) * abs(law.force)
+    limit = (pair.rolling_friction or 0.0) * abs(law.seen)
     memory.rolling = flattened(memory.rolling, contact.normal, 1e-10 * limit / spring) + rate * dt
     force = -spring * memory.rolling - dashpot * rate
     if length(force) > limit:
@@ -87,7 +87,7 @@ def lammps_twist(moments: ElasticPlasticRolling, contact: Contact, law: Stiffnes
     if twisting.kind == "none":
         return 0.0
     rate = float((contact.spins[0] - contact.spins[1]) @ contact.normal)
-    friction = (contact.pair.twisting_friction or 0.0) * abs(law.force)
+    friction = (contact.pair.twisting_friction or 0.0) * abs(law.seen)
     if twisting.kind == "spot":
         spring, dashpot = 0.5 * law.shear * contact.spot**2, 0.5 * law.dashpot * contact.spot**2
         limit = 2 / 3 * contact.spot * friction

@@ -18,7 +18,9 @@ NAMES = [(code, name, place) for code, laws in LAWS.items() for name in laws for
 def scene_of(code: str, name: str, place: str) -> Scene:
     """A collision under one moment law."""
     whole = scenes.oblique_pair() if place == "pair" else contact_scenes.spinning_floor()
-    return contact_scenes.with_moments(whole, LAWS[code][name], f"{name}/{place}")
+    # A whole spin that stops in the middle of a collision would reverse at every step, by rounding.
+    rolls = 0.02 if name == "cdt/torsion" else 0.2
+    return contact_scenes.with_moments(whole, LAWS[code][name], f"{name}/{place}", rolls=rolls)
 
 
 @pytest.fixture(scope="module")
