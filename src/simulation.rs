@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::Vector;
 use crate::bodies::Body;
-use crate::case::model::{ForceCut, NormalLaw};
+use crate::case::model::{ForceCut, MomentLaw, NormalLaw, TangentialLaw};
 use crate::case::scene::{Scene, Start};
 use crate::contacts::{Contacts, Partner, Slot, SlotState};
 use crate::error::Error;
@@ -28,6 +28,11 @@ const CHUNK: usize = 256;
 /// The scene is not valid, names a law that this build does not have, or its run diverges.
 pub fn run(scene: &Scene, threads: usize, progress: &(dyn Fn(u64) + Sync)) -> Result<Recorder, Error> {
     scene.check()?;
+    let model = &scene.model;
+    if !matches!((&model.tangential, &model.moments), (TangentialLaw::Frictionless {}, MomentLaw::Free {})) {
+        let reason = format!("this version has no law {:?} with {:?}", model.tangential, model.moments);
+        return Err(Error::Scene { scene: scene.name(), reason });
+    }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

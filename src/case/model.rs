@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::quantity::{Dashpot, Duration, Force, Length, Number, Stiffness, SurfaceEnergy, Temperature};
+use super::quantity::{Dashpot, Duration, Force, Length, Number, Pressure, Stiffness, SurfaceEnergy, Temperature};
 
 /// The composed contact model.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -34,7 +34,39 @@ pub enum NormalLaw {
     /// Johnson, Kendall, Roberts (1971); its values are those of the pair.
     Jkr {},
     /// Derjaguin, Muller, Toporov (1975); its values are those of the pair.
-    Dmt {},
+    Dmt {
+        /// Whether the force of Hertz and dashpot together is cut at zero.
+        force_cut: ForceCut,
+    },
+    /// Hertz with an attraction in proportion to the area in which the undeformed spheres overlap.
+    Sjkr {
+        /// Cohesion energy density [J/m3 = Pa].
+        energy_density: Pressure,
+        /// Whether the force without the attraction is cut at zero.
+        force_cut: ForceCut,
+    },
+    /// Hertz with an attraction in proportion to an area linear in the overlap.
+    Sjkr2 {
+        /// Cohesion energy density [J/m3 = Pa].
+        energy_density: Pressure,
+        /// Whether the force without the attraction is cut at zero.
+        force_cut: ForceCut,
+    },
+    /// Hysteretic linear contact with a limit of cohesion (Luding 2008).
+    LudingHysteretic {
+        /// Loading stiffness [N/m].
+        k1: Stiffness,
+        /// Largest unloading stiffness, above `k1` [N/m].
+        kp: Stiffness,
+        /// Cohesive stiffness [N/m].
+        kc: Stiffness,
+        /// Plasticity depth: overlap over 2 R* at which the unloading stiffness stops growing [-].
+        plasticity_depth: Number,
+        /// Dashpot constant [kg/s].
+        dashpot: Dashpot,
+        /// Whether the dashpot may not pull beyond the elastic force.
+        force_cut: ForceCut,
+    },
     /// Linear spring and dashpot.
     LinearSpringDashpot {
         /// Stiffness [N/m].
@@ -211,6 +243,8 @@ pub enum History {
     Force,
     /// The tangential force, rescaled when the contact unloads (Thornton, Cummins, Cleary 2011).
     ForceRescaled,
+    /// What each code remembers by itself; natively the rescaled force.
+    Default,
 }
 
 /// Moment laws.
@@ -220,15 +254,99 @@ pub enum MomentLaw {
     /// No moments.
     Free {},
     /// Elastic-plastic rolling spring.
-    ElasticPlasticRolling {},
+    ElasticPlasticRolling {
+        /// Stiffness.
+        stiffness: RollingStiffness,
+        /// Dashpot.
+        dashpot: RollingDashpot,
+        /// Largest moment.
+        limit: RollingLimit,
+        /// Twisting about the normal.
+        twisting: Twisting,
+    },
     /// Rolling torque of constant size.
-    ConstantTorque {},
+    ConstantTorque {
+        /// Whether it opposes the whole relative spin, or only its part across the normal.
+        torsion: bool,
+    },
     /// Bending and twisting of plastic-cohesive contacts (Walton).
     WaltonBendingTwisting {
         /// Widening of the bending arm [-].
         widen: Number,
         /// Ratio of the largest twisting and bending moment [-].
         twist: Number,
+    },
+}
+
+/// Stiffness of a rolling spring.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum RollingStiffness {
+    /// Tangential stiffness times R*^2.
+    Tangential {},
+    /// The same for all contacts.
+    Constant {
+        /// Stiffness [N m].
+        value: Number,
+    },
+    /// A stiffness of the rolling displacement times R*^2.
+    PerRadiusSquared {
+        /// Stiffness of the rolling displacement [N/m].
+        value: Number,
+    },
+    /// A share of the secant normal stiffness times the squares of R* and of the coefficient of rolling friction.
+    Normal {
+        /// Factor [-].
+        value: Number,
+    },
+}
+
+/// Dashpot of a rolling spring.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum RollingDashpot {
+    /// None.
+    None {},
+    /// A share of critical damping.
+    CriticalShare {
+        /// Share [-].
+        value: Number,
+    },
+    /// A constant of the rolling velocity times R*^2.
+    PerRadiusSquared {
+        /// Dashpot constant of the rolling velocity [kg/s].
+        value: Number,
+    },
+}
+
+/// Largest rolling moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RollingLimit {
+    /// Coefficient of rolling friction times normal force times R*.
+    EffectiveRadius,
+    /// None.
+    Unlimited,
+}
+
+/// Twisting resistance beside a rolling spring.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Twisting {
+    /// None.
+    None {},
+    /// In one spring with rolling, under one cap.
+    Joint {},
+    /// Of the contact spot: half its tangential stiffness times its radius squared.
+    Spot {},
+    /// Constants.
+    Constant {
+        /// Stiffness [N m].
+        stiffness: Number,
+        /// Dashpot constant [N m s].
+        dashpot: Number,
+        /// Length that makes a moment of twisting friction [m]; none is no cap.
+        arm: Option<Length>,
     },
 }
 
