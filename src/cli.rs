@@ -12,7 +12,7 @@ use crate::case::scene::Scene;
 use crate::case::{self, Loaded};
 use crate::error::Error;
 use crate::record::Recorder;
-use crate::simulation;
+use crate::simulation::{self, Options};
 
 /// Everything went well.
 pub const SUCCESS: u8 = 0;
@@ -102,7 +102,7 @@ fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
         Command::RunScene { scene, out, threads } => {
             let text = std::fs::read_to_string(scene).map_err(|reason| Error::Read { file: scene.clone(), reason })?;
             let scene: Scene = parse_scene(&scene.display().to_string(), &text)?;
-            simulation::run(&scene, *threads, &|_| {})?.write(out)
+            simulation::run(&scene, Options { threads: *threads }, &|_| {})?.write(out)
         }
         Command::Check { case } => {
             let loaded = case::read(case, &[])?.load()?;
@@ -143,7 +143,7 @@ fn bar(steps: u64) -> ProgressBar {
 
 fn run_case(scene: &Scene, threads: usize, folder: &Path, progress: &ProgressBar) -> Result<(), Error> {
     let done = progress.position();
-    let recorder = simulation::run(scene, threads, &|step| {
+    let recorder = simulation::run(scene, Options { threads }, &|step| {
         if step % 1024 == 0 {
             progress.set_position(done + step);
         }

@@ -4,17 +4,24 @@
 //! combinations ([`model`]). Every formula stands once, in its law's file; sphere-sphere contacts, bodies, and output
 //! all come through the same [`model::ContactModel::evaluate`].
 
+pub mod memory;
 pub mod model;
 pub mod normal;
+pub mod tangential;
 
 use crate::Vector;
 use crate::geometry::ContactGeometry;
+use memory::Memory;
 
 /// What a law knows of its pair: mixed material values and the geometry of the two bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct PairLaw {
     /// E* [Pa].
     pub effective_young: f64,
+    /// G* [Pa]; zero where the pair states none.
+    pub effective_shear: f64,
+    /// Coefficient of friction [-]; zero where the pair states none.
+    pub friction: f64,
     /// R* [m].
     pub effective_radius: f64,
     /// m* [kg]; the mass of the particle at a body.
@@ -54,10 +61,10 @@ pub struct NormalState {
 /// A law of the force along the normal.
 pub trait NormalLaw: Copy + Send + Sync {
     /// What one contact remembers; a new contact starts with the default.
-    type History: Copy + Default + Send + Sync;
+    type History: Memory;
     /// What all contacts share (a stiffness that ages, a temperature): it advances once per step and keeps what it was
     /// before, because a contact may need both.
-    type Shared: Clone + Default + Send + Sync;
+    type Shared: Memory;
 
     /// Advances the shared state by `dt` [s] to `time` [s].
     fn advance(&self, _shared: &mut Self::Shared, _time: f64, _dt: f64) {}
@@ -101,7 +108,7 @@ pub struct TangentialState {
 /// A law of the force in the contact plane.
 pub trait TangentialLaw: Copy + Send + Sync {
     /// What one contact remembers.
-    type History: Copy + Default + Send + Sync;
+    type History: Memory;
 
     /// The force at a contact over a step `dt` [s].
     fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Self::History) -> TangentialState;
@@ -110,7 +117,7 @@ pub trait TangentialLaw: Copy + Send + Sync {
 /// A law of rolling and twisting moments.
 pub trait MomentLaw: Copy + Send + Sync {
     /// What one contact remembers.
-    type History: Copy + Default + Send + Sync;
+    type History: Memory;
 
     /// The moment on i over a step `dt` [s]; its opposite acts on j [N m].
     fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Self::History) -> Vector;
@@ -134,6 +141,7 @@ pub struct Contact {
 impl Contact {
     /// Overlap and normal velocity.
     #[must_use]
+    #[inline]
     pub fn approach(&self) -> Approach {
         Approach {
             overlap: self.geometry.overlap,

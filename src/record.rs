@@ -71,16 +71,17 @@ impl Recorder {
 
     /// Adds a sample.
     pub fn sample(&mut self, step: u64, particles: &Particles, bodies: &[Body], ledger: &Ledger) {
-        let flat = |vectors: &[Vector]| vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<f64>>();
-        let forces: Vec<Vector> = bodies.iter().map(|body| body.force).collect();
+        fn flat(vectors: impl Iterator<Item = Vector>) -> Vec<f64> {
+            vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
+        }
         let rows = [
             vec![step as f64 * self.time_step],
-            flat(&particles.position),
-            flat(&particles.velocity),
-            flat(&particles.angular_velocity),
-            flat(&particles.force),
-            flat(&particles.torque),
-            flat(&forces),
+            flat(particles.positions()),
+            flat(particles.velocities()),
+            flat(particles.angular_velocities()),
+            flat(particles.loads().map(|load| load.force)),
+            flat(particles.loads().map(|load| load.torque)),
+            flat(bodies.iter().map(|body| body.force)),
             vec![ledger.kinetic],
             vec![ledger.elastic],
             vec![ledger.gravity],

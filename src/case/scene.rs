@@ -8,6 +8,7 @@ use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
 use super::protocol::{End, Motion, Shape};
 use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Geometry, Level, ParticleSource, TimeStep};
+use crate::bodies::Body;
 use crate::error::Problem;
 use crate::geometry::{self, ContactGeometry};
 use crate::laws::PairLaw;
@@ -98,6 +99,7 @@ pub struct SceneBody {
 #[expect(missing_docs, reason = "docs/formats.md describes every field")]
 pub enum SceneShape {
     Plane { point: [f64; 3], normal: [f64; 3] },
+    Cylinder { point: [f64; 3], axis: [f64; 3], radius: f64 },
 }
 
 /// Motion of a wall [m/s].
@@ -196,19 +198,14 @@ fn supported(case: &Case) -> Result<(), Problem> {
     if case.ensemble.is_some() {
         return refuse("ensemble", "seeds".to_owned(), "cases without an ensemble");
     }
-    for (axis, boundary) in case.domain.boundary.iter().enumerate() {
-        if *boundary != Boundary::Open {
-            return refuse(&format!("domain.boundary.{axis}"), format!("{boundary:?}"), "open boundaries");
-        }
-    }
     for (i, source) in case.particles.iter().enumerate() {
         if !matches!(source, ParticleSource::Single { .. }) {
             return refuse(&format!("particles.{i}.kind"), format!("{source:?}"), "the kind `single`");
         }
     }
     for (i, body) in case.bodies.iter().enumerate() {
-        if !matches!(body.shape, Shape::Plane { .. }) {
-            return refuse(&format!("bodies.{i}.shape"), format!("{:?}", body.shape), "planes");
+        if matches!(body.shape, Shape::Mesh { .. }) {
+            return refuse(&format!("bodies.{i}.shape"), format!("{:?}", body.shape), "planes and cylinders");
         }
         if !matches!(body.motion, Motion::Fixed | Motion::Prescribed { .. }) {
             return refuse(&format!("bodies.{i}.motion"), format!("{:?}", body.motion), "fixed and prescribed bodies");
@@ -274,6 +271,7 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
             effective_shear: shear.is_finite().then_some(shear),
             damping_ratio,
             restitution,
+            friction: None,
         }
     };
     case.pairs.iter().map(mixed).collect()
@@ -282,12 +280,18 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
 fn bodies(case: &Case) -> Vec<SceneBody> {
     let mut scene = Vec::new();
     for body in &case.bodies {
-        let Shape::Plane { point, normal } = &body.shape else { continue };
-        let normal = Vector::from(normal.map(Number::get)).normalize();
+        let unit = |direction: &[Number; 3]| Vector::from(direction.map(Number::get)).normalize().into();
+        let shape = match &body.shape {
+            Shape::Plane { point, normal } => SceneShape::Plane { point: si(point), normal: unit(normal) },
+            Shape::Cylinder { point, axis, radius } => {
+                SceneShape::Cylinder { point: si(point), axis: unit(axis), radius: radius.si() }
+            }
+            Shape::Mesh { .. } => continue,
+        };
         scene.push(SceneBody {
             name: body.name.clone(),
             material: index(case, &body.material),
-            shape: SceneShape::Plane { point: si(point), normal: normal.into() },
+            shape,
             motion: match &body.motion {
                 Motion::Prescribed { velocity } => SceneMotion::Prescribed { velocity: si(velocity) },
                 _ => SceneMotion::Fixed,
@@ -335,6 +339,8 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
             found.push(StartApproach {
                 law: PairLaw {
                     effective_young: pair.effective_young,
+                    effective_shear: 0.0,
+                    friction: 0.0,
                     effective_radius: geometry.effective_radius(),
                     effective_mass: mass,
                     damping_ratio: pair.damping_ratio,
@@ -355,8 +361,7 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
             add(key.clone(), &format!("particle {j}"), geometry, mass, [one.material, other.material], velocity - Vector::from(other.velocity))?;
         }
         for body in &scene.bodies {
-            let SceneShape::Plane { point, normal } = &body.shape;
-            let geometry = geometry::sphere_plane(center, one.radius, (*point).into(), (*normal).into());
+            let Some(geometry) = Body::new(body).geometry(center, one.radius) else { continue };
             let wall = match &body.motion {
                 SceneMotion::Prescribed { velocity } => Vector::from(*velocity),
                 SceneMotion::Fixed => Vector::zeros(),

@@ -2,6 +2,7 @@
 
 use crate::Vector;
 
+use super::memory::Memory;
 use super::{Contact, MomentLaw, NormalLaw, NormalState, TangentialLaw, TangentialState};
 
 /// Force and moments of one contact.
@@ -20,9 +21,9 @@ pub struct Action {
 /// A composed model: the only thing that the sweep over contacts calls.
 pub trait ContactModel: Copy + Send + Sync {
     /// What one contact remembers.
-    type History: Copy + Default + Send + Sync;
+    type History: Memory;
     /// What all contacts share.
-    type Shared: Clone + Default + Send + Sync;
+    type Shared: Memory;
 
     /// Advances the shared state by `dt` [s] to `time` [s].
     fn advance(&self, shared: &mut Self::Shared, time: f64, dt: f64);
@@ -64,6 +65,7 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
         self.normal.reach()
     }
 
+    #[inline]
     fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action {
         let normal = self.normal.evaluate(&contact.pair, &contact.approach(), shared, &mut history.0);
         let tangential = self.tangential.evaluate(contact, &normal, dt, &mut history.1);

@@ -52,6 +52,7 @@ impl NormalLaw for Hertz {
     type History = ();
     type Shared = ();
 
+    #[inline]
     fn evaluate(&self, pair: &PairLaw, approach: &Approach, (): &(), (): &mut ()) -> NormalState {
         let contact_radius = (pair.effective_radius * approach.overlap).sqrt();
         let tangent_stiffness = 2.0 * pair.effective_young * contact_radius;
@@ -79,7 +80,14 @@ mod tests {
     use super::*;
 
     fn pair(damping_ratio: f64) -> PairLaw {
-        PairLaw { effective_young: 5e6, effective_radius: 2e-3, effective_mass: 1e-5, damping_ratio }
+        PairLaw {
+            effective_young: 5e6,
+            effective_shear: 0.0,
+            friction: 0.0,
+            effective_radius: 2e-3,
+            effective_mass: 1e-5,
+            damping_ratio,
+        }
     }
 
     fn state(law: Hertz, damping_ratio: f64, overlap: f64, normal_velocity: f64) -> NormalState {
