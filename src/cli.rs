@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
 use crate::case::scene::Scene;
+use crate::bench;
 use crate::case::{self, Loaded};
 use crate::error::Error;
 use crate::record::Recorder;
@@ -55,6 +56,30 @@ enum Command {
         /// Number of threads.
         #[arg(long, default_value_t = 1)]
         threads: usize,
+    },
+    /// Times the engine on the jammed bed and writes DIR/bench.json.
+    Bench {
+        /// Output folder.
+        #[arg(long, default_value = "out")]
+        out: PathBuf,
+        /// Folder of built beds, the output folder if not given.
+        #[arg(long)]
+        cache: Option<PathBuf>,
+        /// Numbers of threads, one measurement each.
+        #[arg(long, value_delimiter = ',', default_value = "1")]
+        threads: Vec<usize>,
+        /// Number of particles.
+        #[arg(long, default_value_t = 32_000)]
+        particles: usize,
+        /// Seed of the bed.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// Steps of one repeat.
+        #[arg(long, default_value_t = 200)]
+        steps: u64,
+        /// Repeats; the median counts.
+        #[arg(long, default_value_t = 5)]
+        repeats: usize,
     },
     /// Checks a case file without running it.
     Check {
@@ -103,6 +128,26 @@ fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
             let text = std::fs::read_to_string(scene).map_err(|reason| Error::Read { file: scene.clone(), reason })?;
             let scene: Scene = parse_scene(&scene.display().to_string(), &text)?;
             simulation::run(&scene, Options { threads: *threads }, &|_| {})?.write(out)
+        }
+        Command::Bench { out, cache, threads, particles, seed, steps, repeats } => {
+            let progress = bar(0);
+            let bed = bench::cached(cache.as_ref().unwrap_or(out), *particles, *seed, &|step, total| {
+                progress.set_length(total);
+                progress.set_position(step);
+            })?;
+            progress.finish_and_clear();
+            let measured: Result<Vec<_>, _> = threads.iter().map(|n| bench::time(&bed, *n, *steps, *repeats)).collect();
+            let measured = measured?;
+            for one in &measured {
+                let bytes = one.peak_memory_bytes.unwrap_or_default() / one.particles.max(1) as u64;
+                let speed = one.ns_per_particle_step;
+                say(format!("{}, {} threads: {speed:.1} ns per particle-step, {bytes} bytes per particle", one.state, one.threads))?;
+            }
+            let file = out.join("bench.json");
+            let text = serde_json::to_string_pretty(&measured).unwrap_or_default();
+            std::fs::create_dir_all(out)
+                .and_then(|()| std::fs::write(&file, text + "\n"))
+                .map_err(|reason| Error::Write { file, reason })
         }
         Command::Check { case } => {
             let loaded = case::read(case, &[])?.load()?;

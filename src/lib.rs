@@ -22,6 +22,7 @@
 //! | [`neighbors`], [`contacts`] | who may touch, and what contacts remember |
 //! | [`simulation`] | one step: motion, sweep over contacts |
 //! | [`observables`], [`record`] | what is measured and how it is written |
+//! | [`bench`] | speed on states built from a seed |
 //! | [`cli`] | the command `crossgrain` |
 //!
 //! # Determinism
@@ -32,6 +33,7 @@
 /// A vector in three dimensions.
 pub type Vector = nalgebra::Vector3<f64>;
 
+pub mod bench;
 pub mod bodies;
 pub mod case;
 pub mod cli;

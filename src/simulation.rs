@@ -238,6 +238,26 @@ impl<M: ContactModel> Simulation<M> {
         self.contacts = contacts;
     }
 
+    /// Gives the periodic axes the edge `edge` [m] and moves the particles affinely; velocities stay.
+    pub fn rescale(&mut self, edge: f64) {
+        let old = self.domain.length;
+        for axis in (0..3).filter(|axis| self.domain.periodic[*axis]) {
+            self.domain.length[axis] = edge;
+            let (min, factor) = (self.domain.min[axis], edge / old[axis]);
+            for place in &mut self.particles.place {
+                place.position[axis] = min + (place.position[axis] - min) * factor;
+            }
+        }
+    }
+
+    /// Multiplies all velocities by `factor`.
+    pub fn slow_down(&mut self, factor: f64) {
+        for motion in &mut self.particles.motion {
+            motion.velocity *= factor;
+            motion.angular_velocity *= factor;
+        }
+    }
+
     /// Number of finished steps.
     #[must_use]
     pub fn step(&self) -> u64 {
