@@ -12,15 +12,37 @@ use crate::case::scene::Start;
 use crate::error::Error;
 use crate::laws::model::{Composed, Free};
 use crate::laws::normal::hertz::Hertz;
+use crate::laws::rotation::Rotation;
+use crate::laws::slider::History;
 use crate::laws::tangential::mindlin::Mindlin;
+use crate::laws::tangential::options::{self, Choices, Dashpot};
 use crate::simulation::{Setup, Simulation};
 use bed::Bed;
 
 /// The model of the benchmark.
-pub type Model = Composed<Hertz, Mindlin, Free>;
+pub type Model = Composed<Hertz, Mindlin<Timed>, Free>;
+
+/// The options that the codes timed beside this one share in the main: a displacement that is projected.
+#[derive(Clone, Copy, Debug)]
+pub struct Timed;
+
+impl Choices for Timed {
+    #[inline(always)]
+    fn options(&self) -> options::Options {
+        options::Options {
+            history: History::Displacement,
+            rotation: Rotation::ProjectionRescaled,
+            ..options::Options::plain()
+        }
+    }
+}
 
 /// Hertz, cut at zero, and Mindlin with a displacement history.
-pub const MODEL: Model = Composed { normal: Hertz { force_cut: true }, tangential: Mindlin, moments: Free };
+pub const MODEL: Model = Composed {
+    normal: Hertz { force_cut: true },
+    tangential: Mindlin { choices: Timed, dashpot: Dashpot::CriticalShare },
+    moments: Free,
+};
 
 /// One measurement, as `bench.json` lists it.
 #[derive(Clone, Debug, Serialize)]

@@ -2,6 +2,20 @@
 
 use crate::Vector;
 
+/// What particle i touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    /// Another sphere.
+    Sphere,
+    /// A plane.
+    Plane,
+    /// The inside of a cylinder.
+    Cylinder {
+        /// Unit vector along its axis [-].
+        axis: Vector,
+    },
+}
+
 /// Where two bodies touch, seen from particle i.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactGeometry {
@@ -13,18 +27,32 @@ pub struct ContactGeometry {
     pub radius_i: f64,
     /// Radius of j [m]; infinite for a plane, negative inside a cylinder.
     pub radius_j: f64,
+    /// What j is.
+    pub surface: Surface,
 }
 
 impl ContactGeometry {
+    /// The normal one step `dt` [s] earlier, from the present normal and the velocity [m/s] of i less that of j over the
+    /// step: both schemes move centres by exactly velocity times dt. Bodies do not turn.
+    #[must_use]
+    #[inline(always)]
+    pub fn previous_normal(&self, velocity: &Vector, dt: f64) -> Vector {
+        let velocity = match self.surface {
+            Surface::Sphere => *velocity,
+            Surface::Plane => return self.normal,
+            Surface::Cylinder { axis } => velocity - axis * velocity.dot(&axis),
+        };
+        // Inside a cylinder the distance is negative: the normal points to the axis.
+        let distance = self.radius_i + self.radius_j - self.overlap;
+        let branch = self.normal - velocity * (dt / distance);
+        branch * (1.0 / branch.norm())
+    }
+
     /// R* = `Ri` `Rj` / (`Ri` + `Rj`), `Ri` at a plane, `Ri` `Rc` / (`Rc` - `Ri`) inside a cylinder of radius `Rc` [m].
     #[must_use]
     #[inline]
     pub fn effective_radius(&self) -> f64 {
-        if self.radius_j.is_infinite() {
-            self.radius_i
-        } else {
-            crate::material::reduced(self.radius_i, self.radius_j)
-        }
+        if self.radius_j.is_infinite() { self.radius_i } else { crate::material::reduced(self.radius_i, self.radius_j) }
     }
 }
 
@@ -41,14 +69,26 @@ pub fn sphere_sphere(center_i: Vector, radius_i: f64, center_j: Vector, radius_j
 #[inline]
 pub fn spheres(branch: Vector, squared: f64, radius_i: f64, radius_j: f64) -> ContactGeometry {
     let distance = squared.sqrt();
-    ContactGeometry { normal: branch * (1.0 / distance), overlap: radius_i + radius_j - distance, radius_i, radius_j }
+    ContactGeometry {
+        normal: branch * (1.0 / distance),
+        overlap: radius_i + radius_j - distance,
+        radius_i,
+        radius_j,
+        surface: Surface::Sphere,
+    }
 }
 
 /// A sphere and a plane through `point` [m] with the unit `normal` into the region of the particles.
 #[must_use]
 pub fn sphere_plane(center: Vector, radius: f64, point: Vector, normal: Vector) -> ContactGeometry {
     let distance = (center - point).dot(&normal);
-    ContactGeometry { normal, overlap: radius - distance, radius_i: radius, radius_j: f64::INFINITY }
+    ContactGeometry {
+        normal,
+        overlap: radius - distance,
+        radius_i: radius,
+        radius_j: f64::INFINITY,
+        surface: Surface::Plane,
+    }
 }
 
 /// A sphere inside a cylinder of `bore` [m] about the axis through `point` [m] along the unit vector `axis`. None where
@@ -63,6 +103,7 @@ pub fn sphere_cylinder(center: Vector, radius: f64, point: Vector, axis: Vector,
         overlap: radius + distance - bore,
         radius_i: radius,
         radius_j: -bore,
+        surface: Surface::Cylinder { axis },
     })
 }
 

@@ -344,6 +344,7 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
                     effective_radius: geometry.effective_radius(),
                     effective_mass: mass,
                     damping_ratio: pair.damping_ratio,
+                    ..PairLaw::default()
                 },
                 speed,
             });

@@ -3,7 +3,7 @@
 use crate::Vector;
 
 use super::memory::Memory;
-use super::{Contact, MomentLaw, NormalLaw, NormalState, TangentialLaw, TangentialState};
+use super::{Contact, Losses, MomentLaw, MomentState, NormalLaw, NormalState, TangentialLaw, TangentialState};
 
 /// Force and moments of one contact.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,10 @@ pub struct Action {
     pub torque_j: Vector,
     /// The normal state behind the force.
     pub normal: NormalState,
+    /// Energy stored along the normal, in the contact plane and in moments [J].
+    pub energy: f64,
+    /// Losses of the step, but for the dashpot along the normal.
+    pub losses: Losses,
 }
 
 /// A composed model: the only thing that the sweep over contacts calls.
@@ -65,11 +69,11 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
         self.normal.reach()
     }
 
-    #[inline]
+    #[inline(always)]
     fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action {
         let normal = self.normal.evaluate(&contact.pair, &contact.approach(), shared, &mut history.0);
         let tangential = self.tangential.evaluate(contact, &normal, dt, &mut history.1);
-        let moment = self.moments.evaluate(contact, &normal, dt, &mut history.2);
+        let moments = self.moments.evaluate(contact, &normal, &tangential, dt, &mut history.2);
         let normal = self.normal.finish(normal, tangential.sliding, &mut history.0);
         let direction = contact.geometry.normal;
         let [arm_i, arm_j] = tangential.arms;
@@ -77,9 +81,11 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
         let twist = direction.cross(&tangential.force);
         Action {
             force: direction * normal.force + tangential.force,
-            torque_i: moment - twist * arm_i,
-            torque_j: -moment - twist * arm_j,
+            torque_i: moments.moment - twist * arm_i,
+            torque_j: -moments.moment - twist * arm_j,
             normal,
+            energy: normal.energy + tangential.energy + moments.energy,
+            losses: tangential.losses + moments.losses + Losses { plastic: normal.plastic, ..Losses::default() },
         }
     }
 }
@@ -91,8 +97,16 @@ pub struct Frictionless;
 impl TangentialLaw for Frictionless {
     type History = ();
 
+    #[inline(always)]
     fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> TangentialState {
-        TangentialState { force: Vector::zeros(), sliding: false, arms: [0.0; 2] }
+        TangentialState {
+            force: Vector::zeros(),
+            sliding: false,
+            arms: [0.0; 2],
+            stiffness: 0.0,
+            energy: 0.0,
+            losses: Losses::default(),
+        }
     }
 }
 
@@ -103,7 +117,8 @@ pub struct Free;
 impl MomentLaw for Free {
     type History = ();
 
-    fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> Vector {
-        Vector::zeros()
+    #[inline(always)]
+    fn evaluate(&self, _: &Contact, _: &NormalState, _: &TangentialState, _: f64, (): &mut ()) -> MomentState {
+        MomentState { moment: Vector::zeros(), energy: 0.0, losses: Losses::default() }
     }
 }

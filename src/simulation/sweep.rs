@@ -146,7 +146,7 @@ impl<M: ContactModel> View<'_, M> {
         let contact = contact(
             properties,
             geometry::spheres(branch, squared, place_i.radius, place_j.radius),
-            material::reduced(motion_i.mass, motion_j.mass),
+            [motion_i.mass, motion_j.mass],
             motion_i.velocity - motion_j.velocity,
             [motion_i.angular_velocity, motion_j.angular_velocity],
         );
@@ -164,7 +164,8 @@ impl<M: ContactModel> View<'_, M> {
         }
         let Some(properties) = &self.table[motion.material as usize * self.materials + body.material] else { return };
         let velocity = motion.velocity - body.velocity;
-        let contact = contact(properties, geometry, motion.mass, velocity, [motion.angular_velocity, Vector::zeros()]);
+        let masses = [motion.mass, f64::INFINITY];
+        let contact = contact(properties, geometry, masses, velocity, [motion.angular_velocity, Vector::zeros()]);
         let slots: &mut Slots<Near, M::History> = &mut block.near;
         if let Some(action) = self.evaluate::<LEDGER, _>(&contact, slot, slots, &mut block.flow, &body.velocity) {
             push(&mut loads[particle - block.first], action.force, action.torque_i);
@@ -205,16 +206,24 @@ fn push(load: &mut Load, force: Vector, torque: Vector) {
 }
 
 #[inline(always)]
-fn contact(pair: &PairProperties, geometry: ContactGeometry, mass: f64, velocity: Vector, angular: [Vector; 2]) -> Contact {
+fn contact(
+    pair: &PairProperties,
+    geometry: ContactGeometry,
+    masses: [f64; 2],
+    velocity: Vector,
+    angular: [Vector; 2],
+) -> Contact {
+    let [mass_i, mass_j] = masses;
     let pair = PairLaw {
         effective_young: pair.effective_young,
         effective_shear: pair.effective_shear.unwrap_or_default(),
         friction: pair.friction.unwrap_or_default(),
         effective_radius: geometry.effective_radius(),
-        effective_mass: mass,
+        effective_mass: if mass_j.is_finite() { material::reduced(mass_i, mass_j) } else { mass_i },
         damping_ratio: pair.damping_ratio,
+        ..PairLaw::default()
     };
-    Contact { pair, geometry, velocity, angular_i: angular[0], angular_j: angular[1] }
+    Contact { pair, geometry, velocity, angular_i: angular[0], angular_j: angular[1], masses }
 }
 
 /// Work of the last step, from the forces at its two ends and the velocity between.
@@ -230,8 +239,14 @@ fn account(
         force: action.force,
         normal_force: action.normal.force,
         damping_force: action.normal.force - action.normal.elastic,
-        energy: action.normal.energy,
+        energy: action.energy,
     });
+    if let Some(action) = action {
+        flow.losses = flow.losses + action.losses;
+    } else {
+        // A spring that is dropped with its contact.
+        flow.losses.carried += account.energy;
+    }
     let velocity = contact.approach().normal_velocity;
     let mean = |now: f64, then: f64| 0.5 * (now + then);
     flow.dissipated += mean(now.damping_force, account.damping_force) * velocity * elapsed;

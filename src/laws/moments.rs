@@ -1,0 +1,1 @@
+//! Laws of rolling and twisting moments, one per file.

@@ -1,0 +1,179 @@
+//! A spring and a dashpot behind a slider: the body that tangential, rolling and twisting laws share.
+//!
+//! | symbol | meaning | unit (tangential; moments in brackets) |
+//! |---|---|---|
+//! | u | rate: slip velocity (relative spin) | m/s (rad/s) |
+//! | k, g | stiffness, dashpot constant | N/m, kg/s (N m, N m s) |
+//! | k0, e0 | stiffness and elastic force of the last step, turned with the contact | |
+//! | e, d = -g u | elastic and damping force (moment) on i | N (N m) |
+//! | L | limit | N (N m) |
+//!
+//! Trial: e = -k (s + u dt) from a displacement s, or e = e0 - k u dt from a force; a rescaled force first shrinks to
+//! e0 k / k0 where k < k0 (Thornton, Cummins, Cleary, *Powder Technology* 210 (2011) 189).
+//!
+//! | cap | beyond the limit |
+//! |---|---|
+//! | total | on e + d: the sum is scaled to L, the damping stays, e = sum - d |
+//! | elastic | on e: e is scaled to L and d dropped; below the limit d is added without a cap |
+//! | `total_along_rate` | on e + d: the sum is -L u / abs(u), e = sum - d (LAMMPS, twisting) |
+//!
+//! Energies of a step, exact for a linear change of e over the step (mean forces times increments):
+//! slider ((e0 + e)/2 + d).(trial - e)/k; dashpot d.(e - base)/k, where base is e before the increment; stored e^2 / 2k;
+//! carried: -(k - k0) s0.s1 / 2 (displacement), (1/k0 - 1/k) e0^2 / 2 (force), (1 - k/k0) e0.e / 2k (rescaled force, k <
+//! k0), and what an inexact rotation adds.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vector;
+
+use super::rotation::Rotation;
+
+/// What a spring remembers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum History {
+    /// The displacement.
+    Displacement,
+    /// The force, from increments.
+    Force,
+    /// The force, from increments, rescaled when the stiffness falls.
+    ForceRescaled,
+}
+
+/// What comes first in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Order {
+    /// The old value turns, then grows.
+    RotateFirst,
+    /// The value grows, then turns.
+    IncrementFirst,
+}
+
+/// What the limit holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cap {
+    /// Elastic and damping parts together.
+    Total,
+    /// The elastic part.
+    Elastic,
+    /// Both together, directed against the rate.
+    TotalAlongRate,
+}
+
+/// Memory of a spring: its displacement or force, and its stiffness.
+pub type Memory = (Vector, f64);
+
+/// Rules of a spring.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules {
+    /// What is remembered.
+    pub history: History,
+    /// How it turns.
+    pub rotation: Rotation,
+    /// What comes first.
+    pub order: Order,
+    /// What the limit holds.
+    pub cap: Cap,
+}
+
+/// One step of a spring.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// Rate [m/s or rad/s].
+    pub rate: Vector,
+    /// Stiffness [N/m or N m].
+    pub stiffness: f64,
+    /// Dashpot constant [kg/s or N m s].
+    pub dashpot: f64,
+    /// Largest force or moment [N or N m].
+    pub limit: f64,
+    /// Duration [s].
+    pub dt: f64,
+}
+
+/// What a spring does.
+#[derive(Clone, Copy, Debug)]
+pub struct Response {
+    /// Force or moment on i [N or N m].
+    pub force: Vector,
+    /// Whether the slider moved.
+    pub sliding: bool,
+    /// Stored energy [J].
+    pub energy: f64,
+    /// Work of the slider [J].
+    pub slider: f64,
+    /// Work of the dashpot [J].
+    pub viscous: f64,
+    /// Loss of the carried spring [J].
+    pub carried: f64,
+}
+
+impl Rules {
+    /// Advances `memory` by one step; `carry` turns a vector with the contact.
+    #[inline(always)]
+    pub fn advance(&self, step: &Step, memory: &mut Memory, carry: impl Fn(&Vector) -> Vector) -> Response {
+        let (stored, before) = *memory;
+        let turned = carry(&stored);
+        let grown = |start: &Vector, rate: &Vector| match self.order {
+            Order::RotateFirst => start + rate,
+            Order::IncrementFirst => carry(&(stored + rate)),
+        };
+        let displacement = self.history == History::Displacement;
+        let shrink = if self.history == History::ForceRescaled && step.stiffness < before {
+            step.stiffness / before
+        } else {
+            1.0
+        };
+        // Elastic forces: of the last step, at the start of this one, and with the increment.
+        let (last, base, remembered, trial) = if displacement {
+            let grown = grown(&turned, &(step.rate * step.dt));
+            (turned * -before, turned * -step.stiffness, grown, grown * -step.stiffness)
+        } else {
+            let base = turned * shrink;
+            let grown = grown(&base, &(step.rate * (-step.stiffness * step.dt)));
+            (turned, base, grown, grown)
+        };
+        let dashpot = step.rate * -step.dashpot;
+        let tested = if self.cap == Cap::Elastic { trial } else { trial + dashpot };
+        let squared = tested.norm_squared();
+        let sliding = squared > step.limit * step.limit;
+        let direction = match self.cap {
+            Cap::TotalAlongRate => step.rate * -(1.0 / step.rate.norm().max(f64::MIN_POSITIVE)),
+            _ => tested * (1.0 / squared.sqrt()),
+        };
+        let capped = direction * step.limit;
+        let dropped = sliding && self.cap == Cap::Elastic;
+        let damping = choose(dropped, &Vector::zeros(), &dashpot);
+        let elastic = choose(sliding, &(capped - damping), &trial);
+        let force = choose(sliding, &capped, &(trial + dashpot));
+        let softness = if step.stiffness > 0.0 { 1.0 / step.stiffness } else { 0.0 };
+        let slipped = if displacement { elastic * -softness } else { elastic };
+        *memory = (choose(sliding, &slipped, &remembered), step.stiffness);
+        let lost = (stored.norm_squared() - turned.norm_squared()) * 0.5;
+        let carried = if before <= 0.0 {
+            0.0
+        } else if displacement {
+            lost * before - 0.5 * (step.stiffness - before) * turned.dot(&(elastic * -softness))
+        } else if shrink < 1.0 {
+            lost / before + 0.5 * (1.0 - shrink) * turned.dot(&elastic) * softness
+        } else {
+            lost / before + 0.5 * (1.0 / before - softness) * turned.norm_squared()
+        };
+        Response {
+            force,
+            sliding,
+            energy: 0.5 * elastic.norm_squared() * softness,
+            slider: ((last + elastic) * 0.5 + damping).dot(&(trial - elastic)) * softness,
+            viscous: damping.dot(&(elastic - base)) * softness,
+            carried,
+        }
+    }
+}
+
+/// Chosen by value, not by branch, so that contacts can be evaluated several at a time.
+#[inline(always)]
+fn choose(first: bool, one: &Vector, other: &Vector) -> Vector {
+    Vector::from_fn(|axis, _| if first { one[axis] } else { other[axis] })
+}

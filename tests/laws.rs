@@ -1,0 +1,9 @@
+//! Contact laws against what the reference codes were measured to compute, and against independent integrations.
+//!
+//! Measured numbers: `docs` of the harness, runs of LIGGGHTS 3.8.0, YADE 2023.02a and LAMMPS 29 Sep 2021; every table
+//! names its case.
+
+#[path = "laws/collisions.rs"]
+mod collisions;
+#[path = "laws/scenes.rs"]
+mod scenes;
