@@ -38,7 +38,8 @@ pub fn json_schema() -> serde_json::Value {
 /// # Errors
 /// The file cannot be read, is not a case, or states what the physics does not allow.
 pub fn read(path: &Path, overrides: &[String]) -> Result<Stated, Error> {
-    let text = std::fs::read_to_string(path).map_err(|reason| Error::Read { file: path.to_owned(), reason })?;
+    let text =
+        std::fs::read_to_string(path).map_err(|reason| Error::Read { file: path.to_owned(), reason })?;
     Stated::parse(&path.display().to_string(), &text, overrides)
 }
 
@@ -67,11 +68,8 @@ impl Stated {
         let mut case: Case = toml::from_str(text).map_err(parse_error)?;
         let mut table: toml::Table = toml::from_str(text).map_err(parse_error)?;
         if !overrides.is_empty() {
-            sweep::override_keys(&mut table, overrides).map_err(|problem| Error::Invalid {
-                file: file.to_owned(),
-                line: 0,
-                problem,
-            })?;
+            sweep::override_keys(&mut table, overrides)
+                .map_err(|problem| Error::Invalid { file: file.to_owned(), line: 0, problem })?;
             case = table.clone().try_into().map_err(parse_error)?;
         }
         let mut stated = Self { file: file.to_owned(), text: text.to_owned(), case, variants: Vec::new() };

@@ -8,6 +8,7 @@
 
 use crate::Vector;
 use crate::domain::Domain;
+use crate::laws::Losses;
 use crate::laws::memory::Memory;
 use crate::neighbors::Near;
 use crate::particles::{Load, Particles};
@@ -71,19 +72,22 @@ pub struct Account {
     pub damping_force: f64,
     /// Stored energy [J].
     pub energy: f64,
+    /// Its part in the contact plane and in moments [J].
+    pub springs: f64,
 }
 
 impl Memory for Account {
-    const WIDTH: usize = 6;
+    const WIDTH: usize = 7;
 
     fn save(&self, into: &mut Vec<f64>) {
         self.force.save(into);
-        into.extend([self.normal_force, self.damping_force, self.energy]);
+        into.extend([self.normal_force, self.damping_force, self.energy, self.springs]);
     }
 
     fn restore(values: &mut impl Iterator<Item = f64>) -> Self {
-        let (force, (normal_force, damping_force, energy)) = <(Vector, (f64, f64, f64))>::restore(values);
-        Self { force, normal_force, damping_force, energy }
+        let (force, (normal_force, damping_force)) = <(Vector, (f64, f64))>::restore(values);
+        let (energy, springs) = <(f64, f64)>::restore(values);
+        Self { force, normal_force, damping_force, energy, springs }
     }
 }
 
@@ -144,8 +148,10 @@ pub struct Block<H> {
 /// What entered and left the contacts of a block in the last step [J].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Flow {
-    /// Energy dissipated by dashpots.
+    /// Energy dissipated by dashpots along the normal.
     pub dissipated: f64,
+    /// Losses of springs and of plastic flow.
+    pub losses: Losses,
     /// Energy that entered contacts.
     pub entered: f64,
     /// Work of moving bodies on the particles.

@@ -155,6 +155,8 @@ pub struct TangentialState {
     pub arms: [f64; 2],
     /// Stiffness in the contact plane [N/m].
     pub stiffness: f64,
+    /// Dashpot constant in the contact plane [kg/s].
+    pub dashpot: f64,
     /// Stored energy [J].
     pub energy: f64,
     /// Losses of the step.

@@ -5,5 +5,7 @@
 
 #[path = "laws/collisions.rs"]
 mod collisions;
+#[path = "laws/moments.rs"]
+mod moments;
 #[path = "laws/scenes.rs"]
 mod scenes;

@@ -214,8 +214,7 @@ fn insert(bed: &Bed) -> Vec<Vector> {
         let place = Vector::new(uniform(), uniform(), uniform()) * bed.edge;
         let home = [cell(place.x), cell(place.y), cell(place.z)];
         let around = (0..27).map(|k| {
-            let [x, y, z] =
-                [(0, k % 3), (1, k / 3 % 3), (2, k / 9)].map(|(axis, step)| (home[axis] + cells + step - 1) % cells);
+            let [x, y, z] = [(0, k % 3), (1, k / 3 % 3), (2, k / 9)].map(|(axis, step)| (home[axis] + cells + step - 1) % cells);
             (z * cells + y) * cells + x
         });
         let free = around.flat_map(|cell| &grid[cell]).all(|other| {

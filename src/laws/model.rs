@@ -16,8 +16,8 @@ pub struct Action {
     pub torque_j: Vector,
     /// The normal state behind the force.
     pub normal: NormalState,
-    /// Energy stored along the normal, in the contact plane and in moments [J].
-    pub energy: f64,
+    /// Energy stored in the contact plane and in moments [J].
+    pub springs: f64,
     /// Losses of the step, but for the dashpot along the normal.
     pub losses: Losses,
 }
@@ -84,7 +84,7 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
             torque_i: moments.moment - twist * arm_i,
             torque_j: -moments.moment - twist * arm_j,
             normal,
-            energy: normal.energy + tangential.energy + moments.energy,
+            springs: tangential.energy + moments.energy,
             losses: tangential.losses + moments.losses + Losses { plastic: normal.plastic, ..Losses::default() },
         }
     }
@@ -104,6 +104,7 @@ impl TangentialLaw for Frictionless {
             sliding: false,
             arms: [0.0; 2],
             stiffness: 0.0,
+            dashpot: 0.0,
             energy: 0.0,
             losses: Losses::default(),
         }

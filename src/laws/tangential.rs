@@ -59,6 +59,7 @@ fn spring(
         sliding: response.sliding,
         arms: arms(contact, |rule| rule.torque, options),
         stiffness,
+        dashpot,
         energy: response.energy,
         losses: Losses {
             viscous: response.viscous,

@@ -20,6 +20,15 @@ pub struct Ledger {
     pub gravity: f64,
     /// Energy dissipated by dashpots since the start.
     pub viscous: f64,
+    /// Energy dissipated by sliding since the start.
+    pub frictional: f64,
+    /// Energy dissipated by rolling and twisting since the start.
+    pub rolling: f64,
+    /// Energy dissipated by plastic flow since the start.
+    pub plastic: f64,
+    /// Energy that loaded springs lost since the start as their stiffness changed, as they turned, and with contacts that
+    /// opened.
+    pub carried: f64,
     /// Work of moving bodies on the particles since the start.
     pub body_work: f64,
     /// Energy that entered contacts since the start, the scale of the residual.
@@ -30,7 +39,12 @@ impl Ledger {
     /// Adds what the last sweep dissipated and received.
     pub fn accumulate<H>(&mut self, contacts: &Contacts<H>) {
         for block in &contacts.blocks {
-            self.viscous += block.flow.dissipated;
+            let losses = block.flow.losses;
+            self.viscous += block.flow.dissipated + losses.viscous;
+            self.frictional += losses.frictional;
+            self.rolling += losses.rolling;
+            self.plastic += losses.plastic;
+            self.carried += losses.carried;
             self.entered += block.flow.entered;
             self.body_work += block.flow.body_work;
         }
@@ -58,14 +72,16 @@ impl Ledger {
 }
 
 impl Memory for Ledger {
-    const WIDTH: usize = 6;
+    const WIDTH: usize = 10;
 
     fn save(&self, into: &mut Vec<f64>) {
         into.extend([self.kinetic, self.elastic, self.gravity, self.viscous, self.body_work, self.entered]);
+        into.extend([self.frictional, self.rolling, self.plastic, self.carried]);
     }
 
     fn restore(values: &mut impl Iterator<Item = f64>) -> Self {
         let ((kinetic, elastic, gravity), (viscous, body_work, entered)) = Memory::restore(values);
-        Self { kinetic, elastic, gravity, viscous, body_work, entered }
+        let ((frictional, rolling), (plastic, carried)) = Memory::restore(values);
+        Self { kinetic, elastic, gravity, viscous, frictional, rolling, plastic, carried, body_work, entered }
     }
 }

@@ -239,13 +239,14 @@ fn account(
         force: action.force,
         normal_force: action.normal.force,
         damping_force: action.normal.force - action.normal.elastic,
-        energy: action.energy,
+        energy: action.normal.energy + action.springs,
+        springs: action.springs,
     });
     if let Some(action) = action {
         flow.losses = flow.losses + action.losses;
     } else {
         // A spring that is dropped with its contact.
-        flow.losses.carried += account.energy;
+        flow.losses.carried += account.springs;
     }
     let velocity = contact.approach().normal_velocity;
     let mean = |now: f64, then: f64| 0.5 * (now + then);
