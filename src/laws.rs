@@ -69,7 +69,7 @@ pub struct NormalState {
     pub pull_off: f64,
     /// Radius of the contact spot [m].
     pub contact_radius: f64,
-    /// Slope of the elastic force [N/m].
+    /// Slope of the elastic force on loading [N/m].
     pub tangent_stiffness: f64,
     /// Stored energy, zero without contact; negative where adhesion outweighs [J].
     pub energy: f64,

@@ -7,5 +7,7 @@
 mod collisions;
 #[path = "laws/moments.rs"]
 mod moments;
+#[path = "laws/normals.rs"]
+mod normals;
 #[path = "laws/scenes.rs"]
 mod scenes;

@@ -1,0 +1,187 @@
+//! Hysteretic linear contact with a limit of cohesion.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | d, v | overlap, normal velocity (positive when approaching) | m, m/s |
+//! | m | largest overlap that the contact remembers | m |
+//! | k1, kp, kc | loading, largest unloading, cohesive stiffness | N/m |
+//! | `phi_f`, l = kp / (kp - k1) `phi_f` 2 R* | plasticity depth, overlap of the largest stiffness | -, m |
+//! | k2(m) = k1 + (kp - k1) min(m / l, 1) | unloading stiffness | N/m |
+//! | g | dashpot constant | kg/s |
+//!
+//! Elastic force: the line k2 (d - m) + k1 m, but at most k1 d below l (loading, m = d), and at least -kc d, where m
+//! falls; beyond l the line is kp (d - l) + k1 l for loading and unloading. F adds g v; with the cut it is at least
+//! min(elastic, 0). Stored: `F_line`^2 / (2 k2).
+//! Plastic loss while m grows: increments of k1 m^2 (1 - k1/k2) / 2; while it falls: of kc b^2 (1 + kc/k2) / 2 with
+//! b = (k2 - k1) / (k2 + kc) m, both closed in m.
+//!
+//! Source: Luding, *Granular Matter* 10 (2008) 235. Invariants: action = reaction, no energy gained on a closed path, a
+//! wall is the limit of a large sphere (not YADE's). Codes differ once the limit of cohesion is met, by the first order
+//! in the step:
+//!
+//! | rule | m on the limit -kc d |
+//! |---|---|
+//! | `self_consistent` (plain; LIGGGHTS `hooke/hysteresis`) | (d + sqrt(d^2 + 4 (k1 + kc) d l / (kp - k1))) / 2, the branch through d |
+//! | `old_stiffness` (LIGGGHTS `luding`) | (k2 + kc) / (k2 - k1) d with the old k2 |
+//! | `luding_pm` (YADE `LudingPM`) | the same, only while d falls; k2 of the last step's m everywhere; line k2 (d - d0) with d0 = min((1 - k1/k2) m, `phi_f` 2 R*); l = 0 at bodies, so k2 = kp |
+
+use serde::{Deserialize, Serialize};
+
+use crate::laws::{Approach, NormalLaw, NormalState, PairLaw};
+
+/// How the largest overlap follows the limit of cohesion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rule {
+    /// The unloading branch through the present point.
+    SelfConsistent,
+    /// The branch of the old stiffness.
+    OldStiffness,
+    /// YADE's.
+    LudingPm,
+}
+
+/// The law.
+#[derive(Clone, Copy, Debug)]
+pub struct LudingHysteretic {
+    /// Loading stiffness k1 [N/m].
+    pub loading: f64,
+    /// Largest unloading stiffness kp [N/m], above k1.
+    pub unloading: f64,
+    /// Cohesive stiffness kc [N/m].
+    pub cohesive: f64,
+    /// Plasticity depth `phi_f` [-].
+    pub plasticity_depth: f64,
+    /// Dashpot constant [kg/s].
+    pub dashpot: f64,
+    /// Whether the dashpot may not pull beyond the elastic force. LIGGGHTS cuts only where kc = 0.
+    pub force_cut: bool,
+    /// Rule on the limit of cohesion.
+    pub rule: Rule,
+}
+
+/// The stiffnesses of a contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Branches {
+    /// k1 [N/m].
+    pub loading: f64,
+    /// kp [N/m].
+    pub unloading: f64,
+    /// kc [N/m].
+    pub cohesive: f64,
+    /// Overlap l of the largest unloading stiffness [m].
+    pub limit: f64,
+}
+
+impl Branches {
+    /// k2 at a largest overlap [N/m].
+    #[must_use]
+    #[inline(always)]
+    pub fn stiffness(&self, largest: f64) -> f64 {
+        if largest >= self.limit {
+            self.unloading
+        } else {
+            self.loading + (self.unloading - self.loading) * (largest / self.limit)
+        }
+    }
+
+    /// The elastic force at an overlap [N], with the largest overlap [m] that is known, which it updates.
+    #[inline(always)]
+    fn force(&self, overlap: f64, largest: &mut f64, rule: Rule) -> f64 {
+        let (k1, kc) = (self.loading, self.cohesive);
+        *largest = largest.max(overlap);
+        let stiffness = self.stiffness(*largest);
+        let corner = largest.min(self.limit);
+        let line = stiffness * (overlap - corner) + k1 * corner;
+        if *largest < self.limit && line >= k1 * overlap {
+            k1 * overlap
+        } else if line > -kc * overlap {
+            line
+        } else {
+            *largest = if rule == Rule::SelfConsistent {
+                let root = 4.0 * (k1 + kc) * overlap * self.limit / (self.unloading - k1);
+                0.5 * (overlap + (overlap * overlap + root).sqrt())
+            } else {
+                (stiffness + kc) / (stiffness - k1) * overlap
+            };
+            -kc * overlap
+        }
+    }
+
+    /// YADE's rules: the force [N] from the overlap and the last one [m], with its largest overlap and offset d0 [m].
+    fn yade(&self, overlap: f64, last: f64, depth: f64, largest: &mut f64, offset: &mut f64) -> f64 {
+        let (k1, kc) = (self.loading, self.cohesive);
+        let stiffness = self.stiffness(*largest);
+        let shift = |largest: f64| ((1.0 - k1 / stiffness) * largest).min(depth);
+        if overlap > *largest {
+            *largest = overlap;
+            *offset = shift(overlap);
+        }
+        let line = stiffness * (overlap - *offset);
+        if line >= k1 * overlap {
+            return if overlap < self.limit { k1 * overlap } else { line };
+        }
+        if line > -kc * overlap || overlap >= last {
+            return line;
+        }
+        *largest = overlap * (stiffness + kc) / (stiffness - k1);
+        *offset = shift(*largest);
+        -kc * overlap
+    }
+
+    /// Plastic loss as the largest overlap goes from `old` to `new` [J].
+    fn plastic(&self, old: f64, new: f64) -> f64 {
+        let (k1, kc) = (self.loading, self.cohesive);
+        let grown = |largest: f64| {
+            let largest = largest.min(self.limit);
+            0.5 * k1 * largest * largest * (1.0 - k1 / self.stiffness(largest))
+        };
+        let fallen = |largest: f64| {
+            let (largest, stiffness) = (largest.min(self.limit), self.stiffness(largest));
+            let least = (stiffness - k1) / (stiffness + kc) * largest;
+            0.5 * kc * least * least * (1.0 + kc / stiffness)
+        };
+        if new > old { grown(new) - grown(old) } else { fallen(old) - fallen(new) }
+    }
+}
+
+impl NormalLaw for LudingHysteretic {
+    /// Largest overlap, last overlap, and YADE's offset.
+    type History = (f64, f64, f64);
+    type Shared = ();
+
+    #[inline(always)]
+    fn evaluate(&self, pair: &PairLaw, approach: &Approach, (): &(), history: &mut Self::History) -> NormalState {
+        let (k1, kp) = (self.loading, self.unloading);
+        let yade = self.rule == Rule::LudingPm;
+        let radius = if yade && approach.at_body { 0.0 } else { pair.effective_radius };
+        let depth = self.plasticity_depth * 2.0 * radius;
+        let limit = kp / (kp - k1) * depth;
+        let branches = Branches { loading: k1, unloading: kp, cohesive: self.cohesive, limit };
+        let overlap = approach.overlap;
+        let (largest, last, offset) = history;
+        let before = *largest;
+        let elastic = if yade {
+            branches.yade(overlap, *last, depth, largest, offset)
+        } else {
+            branches.force(overlap, largest, self.rule)
+        };
+        *last = overlap;
+        let stiffness = branches.stiffness(*largest);
+        let total = elastic + self.dashpot * approach.normal_velocity;
+        let force = if self.force_cut { total.max(elastic.min(0.0)) } else { total };
+        let attraction = (-elastic).max(0.0);
+        let cohesion = self.cohesive * (stiffness - k1) / (stiffness + self.cohesive) * largest.min(limit);
+        NormalState {
+            force,
+            elastic,
+            repulsive: force + attraction,
+            dashpot: self.dashpot,
+            pull_off: cohesion,
+            contact_radius: (pair.effective_radius * overlap).sqrt(),
+            tangent_stiffness: k1,
+            energy: 0.5 * elastic * elastic / stiffness,
+            plastic: branches.plastic(before, *largest),
+        }
+    }
+}
