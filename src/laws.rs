@@ -9,6 +9,7 @@ pub mod memory;
 pub mod model;
 pub mod moments;
 pub mod normal;
+pub mod registry;
 pub mod rotation;
 pub mod slider;
 pub mod tangential;

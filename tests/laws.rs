@@ -11,3 +11,7 @@ mod moments;
 mod normals;
 #[path = "laws/scenes.rs"]
 mod scenes;
+#[path = "laws/invariants.rs"]
+mod invariants;
+#[path = "laws/micro_slip.rs"]
+mod micro_slip;

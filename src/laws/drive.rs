@@ -212,11 +212,13 @@ impl<M: ContactModel> Single<M> {
         visit(&self.evaluate(0, &motions, 0.0).ok_or_else(coincide)?, &frame);
         let mut step = 0;
         for stage in &path.stages {
-            let half = Rotation3::new(stage.turn * (0.5 * path.dt));
-            for _ in 0..stage.steps {
+            // From the start of the stage, so that rounding does not pile up in the frame.
+            let start = frame;
+            let after = |steps: f64| Rotation3::new(stage.turn * (steps * path.dt)) * start;
+            for done in 0..stage.steps {
                 place += stage.velocity * path.dt;
-                let middle = half * frame;
-                frame = half * middle;
+                let middle = after(done as f64 + 0.5);
+                frame = after(done as f64 + 1.0);
                 let position = frame * place;
                 motions[0].velocity = (position - motions[0].position) / path.dt;
                 motions[0].position = position;

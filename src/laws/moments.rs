@@ -1,5 +1,6 @@
 //! Laws of rolling and twisting moments, one per file. A pair of laws acts together: rolling and twisting.
 
+pub mod any;
 pub mod constant_torque;
 pub mod elastic_plastic_rolling;
 pub mod twisting;

@@ -9,7 +9,8 @@
 //! | L | limit | N (N m) |
 //!
 //! Trial: e = -k (s + u dt) from a displacement s, or e = e0 - k u dt from a force; a rescaled force first shrinks to
-//! e0 k / k0 where k < k0 (Thornton, Cummins, Cleary, *Powder Technology* 210 (2011) 189).
+//! e0 k / k0 where k < k0 (Thornton, Cummins, Cleary, *Powder Technology* 210 (2011) 189). With a mean increment, k of
+//! the increment is (k0 + k) / 2 while k grows, which makes an undamped spring second order in the step; below, kd.
 //!
 //! | cap | beyond the limit |
 //! |---|---|
@@ -18,9 +19,9 @@
 //! | `total_along_rate` | on e + d: the sum is -L u / abs(u), e = sum - d (LAMMPS, twisting) |
 //!
 //! Energies of a step, exact for a linear change of e over the step (mean forces times increments):
-//! slider ((e0 + e)/2 + d).(trial - e)/k; dashpot d.(e - base)/k, where base is e before the increment; stored e^2 / 2k;
-//! carried: -(k - k0) s0.s1 / 2 (displacement), (1/k0 - 1/k) e0^2 / 2 (force), (1 - k/k0) e0.e / 2k (rescaled force, k <
-//! k0), and what an inexact rotation adds.
+//! slider ((e0 + e)/2 + d).(trial - e)/kd; dashpot d.(e - base)/kd, where base is e before the increment; stored
+//! e^2 / 2k; carried: -(k - k0) s0.s1 / 2 (displacement), ((1/k0 - 1/kd) e0^2 + (1/kd - 1/k) e^2) / 2 (force),
+//! (1 - k/k0) e0.e / 2k (rescaled force, k < k0), and what an inexact rotation adds. A rescaled force never gains.
 
 use serde::{Deserialize, Serialize};
 
@@ -62,6 +63,16 @@ pub enum Cap {
     TotalAlongRate,
 }
 
+/// The stiffness of an increment of force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Increment {
+    /// That at the end of the step.
+    Present,
+    /// The mean over the step while it grows.
+    Mean,
+}
+
 /// Memory of a spring: its displacement or force, and its stiffness.
 pub type Memory = (Vector, f64);
 
@@ -74,6 +85,8 @@ pub struct Rules {
     pub rotation: Rotation,
     /// What comes first.
     pub order: Order,
+    /// The stiffness of an increment of force.
+    pub increment: Increment,
     /// What the limit holds.
     pub cap: Cap,
 }
@@ -126,13 +139,15 @@ impl Rules {
         } else {
             1.0
         };
+        let grows = self.increment == Increment::Mean && step.stiffness > before;
+        let gain = if grows { 0.5 * (before + step.stiffness) } else { step.stiffness };
         // Elastic forces: of the last step, at the start of this one, and with the increment.
         let (last, base, remembered, trial) = if displacement {
             let grown = grown(&turned, &(step.rate * step.dt));
             (turned * -before, turned * -step.stiffness, grown, grown * -step.stiffness)
         } else {
             let base = turned * shrink;
-            let grown = grown(&base, &(step.rate * (-step.stiffness * step.dt)));
+            let grown = grown(&base, &(step.rate * (-gain * step.dt)));
             (turned, base, grown, grown)
         };
         let dashpot = step.rate * -step.dashpot;
@@ -148,25 +163,26 @@ impl Rules {
         let damping = choose(dropped, &Vector::zeros(), &dashpot);
         let elastic = choose(sliding, &(capped - damping), &trial);
         let force = choose(sliding, &capped, &(trial + dashpot));
-        let softness = if step.stiffness > 0.0 { 1.0 / step.stiffness } else { 0.0 };
+        let inverse = |stiffness: f64| if stiffness > 0.0 { 1.0 / stiffness } else { 0.0 };
+        let (softness, yielding) = (inverse(step.stiffness), inverse(gain));
         let slipped = if displacement { elastic * -softness } else { elastic };
         *memory = (choose(sliding, &slipped, &remembered), step.stiffness);
         let lost = (stored.norm_squared() - turned.norm_squared()) * 0.5;
-        let carried = if before <= 0.0 {
-            0.0
-        } else if displacement {
+        let carried = if displacement {
             lost * before - 0.5 * (step.stiffness - before) * turned.dot(&(elastic * -softness))
         } else if shrink < 1.0 {
             lost / before + 0.5 * (1.0 - shrink) * turned.dot(&elastic) * softness
         } else {
-            lost / before + 0.5 * (1.0 / before - softness) * turned.norm_squared()
+            let old = inverse(before);
+            let spent = (old - yielding) * turned.norm_squared() + (yielding - softness) * elastic.norm_squared();
+            lost * old + 0.5 * spent
         };
         Response {
             force,
             sliding,
             energy: 0.5 * elastic.norm_squared() * softness,
-            slider: ((last + elastic) * 0.5 + damping).dot(&(trial - elastic)) * softness,
-            viscous: damping.dot(&(elastic - base)) * softness,
+            slider: ((last + elastic) * 0.5 + damping).dot(&(trial - elastic)) * yielding,
+            viscous: damping.dot(&(elastic - base)) * yielding,
             carried,
         }
     }

@@ -6,7 +6,7 @@ pub mod mindlin;
 pub mod options;
 
 use crate::laws::rotation::Turn;
-use crate::laws::slider::{Cap, History, Memory, Order, Rules, Step};
+use crate::laws::slider::{Cap, History, Increment, Memory, Order, Rules, Step};
 use crate::laws::{Contact, Losses, NormalState, TangentialState};
 
 use options::{ArmRule, Friction, Options};
@@ -51,7 +51,7 @@ fn spring(
     let turn = Turn::of(contact, dt);
     let scale = if options.history == History::Displacement { stiffness } else { 1.0 };
     let negligible = NEGLIGIBLE * limit / scale;
-    let rules = Rules { history: options.history, rotation: options.rotation, order: options.order, cap: options.cap };
+    let rules = Rules { history: options.history, rotation: options.rotation, order: options.order, increment: options.increment, cap: options.cap };
     let step = Step { rate, stiffness, dashpot, limit, dt };
     let response = rules.advance(&step, history, |vector| options.rotation.carry(vector, &turn, negligible));
     TangentialState {
@@ -81,6 +81,7 @@ impl Options {
             history: History::ForceRescaled,
             rotation: crate::laws::rotation::Rotation::Rigid,
             order: Order::RotateFirst,
+            increment: Increment::Mean,
             cap: Cap::Total,
             friction: Friction::WithoutAdhesion,
             pair_arms: arms,

@@ -34,7 +34,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::laws::rotation::{Rotation, Turn};
-use crate::laws::slider::{Cap, History, Memory, Order, Rules, Step};
+use crate::laws::slider::{Cap, History, Increment, Memory, Order, Rules, Step};
 use crate::laws::{Contact, Losses, MomentLaw, MomentState, NormalState, TangentialState};
 
 /// Sine of the angle to the contact plane below which LAMMPS leaves its spring alone, relative to the cap.
@@ -180,6 +180,16 @@ impl ElasticPlasticRolling {
     }
 }
 
+impl ElasticPlasticRolling {
+    /// Rescaled springs, which are native, take the mean.
+    const fn increment(&self) -> Increment {
+        match self.history {
+            History::ForceRescaled => Increment::Mean,
+            _ => Increment::Present,
+        }
+    }
+}
+
 impl MomentLaw for ElasticPlasticRolling {
     type History = Memory;
 
@@ -210,7 +220,7 @@ impl MomentLaw for ElasticPlasticRolling {
         };
         let turn = Turn::of(contact, dt);
         let negligible = NEGLIGIBLE * limit / if self.history == History::Displacement { stiffness } else { 1.0 };
-        let rules = Rules { history: self.history, rotation: self.rotation, order: Order::RotateFirst, cap: self.cap };
+        let rules = Rules { history: self.history, rotation: self.rotation, order: Order::RotateFirst, increment: self.increment(), cap: self.cap };
         let step = Step { rate, stiffness, dashpot, limit, dt };
         let response = rules.advance(&step, history, |vector| self.rotation.carry(vector, &turn, negligible));
         MomentState::of(&response)

@@ -21,7 +21,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::laws::rotation::{Rotation, Turn};
-use crate::laws::slider::{Cap, History, Memory, Order, Rules, Step};
+use crate::laws::slider::{Cap, History, Increment, Memory, Order, Rules, Step};
 use crate::laws::{Contact, MomentLaw, MomentState, NormalState, TangentialState};
 
 /// Stiffness, dashpot and cap.
@@ -85,6 +85,16 @@ impl Twisting {
     }
 }
 
+impl Twisting {
+    /// Rescaled springs, which are native, take the mean.
+    const fn increment(&self) -> Increment {
+        match self.history {
+            History::ForceRescaled => Increment::Mean,
+            _ => Increment::Present,
+        }
+    }
+}
+
 impl MomentLaw for Twisting {
     type History = Memory;
 
@@ -111,7 +121,7 @@ impl MomentLaw for Twisting {
             }
         };
         let turn = Turn::of(contact, dt);
-        let rules = Rules { history: self.history, rotation: self.rotation, order: Order::RotateFirst, cap: self.cap };
+        let rules = Rules { history: self.history, rotation: self.rotation, order: Order::RotateFirst, increment: self.increment(), cap: self.cap };
         let step = Step { rate, stiffness, dashpot, limit, dt };
         let carry = |vector: &crate::Vector| self.rotation.carry_along_normal(vector, &turn);
         MomentState::of(&rules.advance(&step, history, carry))

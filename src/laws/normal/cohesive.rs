@@ -13,6 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::laws::{Approach, NormalLaw, NormalState, PairLaw};
 
+use super::hertz::Hertz;
+
 /// An attraction while bodies overlap.
 pub trait Attraction: Copy + Send + Sync {
     /// Attraction [N] and its potential, from first touch [J].
@@ -41,6 +43,14 @@ pub struct Cohesive<N, A> {
     pub attraction: A,
     /// How far the dashpot may pull.
     pub dashpot_limit: DashpotLimit,
+}
+
+impl<A> Cohesive<Hertz, A> {
+    /// The attraction with Hertz, whose cut it keeps.
+    #[must_use]
+    pub const fn with_hertz(force_cut: bool, attraction: A) -> Self {
+        Self { base: Hertz { force_cut }, attraction, dashpot_limit: DashpotLimit::Base }
+    }
 }
 
 impl<N: NormalLaw, A: Attraction> NormalLaw for Cohesive<N, A> {

@@ -37,7 +37,7 @@ impl Dmt {
     /// The law with the dashpot of [`Hertz`]: cut so that Hertz and dashpot together never pull, or not.
     #[must_use]
     pub const fn new(force_cut: bool) -> Self {
-        Self { base: Hertz { force_cut }, attraction: Constant, dashpot_limit: DashpotLimit::Base }
+        Self::with_hertz(force_cut, Constant)
     }
 
     /// YADE's.

@@ -17,10 +17,10 @@
 //! | YADE | `ViscElMat` ks = 2 k, cs = 2 g |
 //! | LAMMPS | `tangential linear_history k g/gn mu` with `damping velocity` |
 
-use crate::laws::slider::Memory;
+use crate::laws::slider::{Increment, Memory};
 use crate::laws::{Contact, NormalState, TangentialLaw, TangentialState};
 
-use super::options::{Choices, Dashpot};
+use super::options::{Choices, Dashpot, Options};
 
 /// The law.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +40,8 @@ impl<C: Choices> TangentialLaw for LinearHistory<C> {
     fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Memory) -> TangentialState {
         let stiffness = self.stiffness_ratio * normal.tangent_stiffness;
         let dashpot = self.dashpot.constant(stiffness, &contact.pair, normal);
-        super::spring(contact, normal, &self.choices.options(), [stiffness, dashpot], dt, history)
+        // A constant stiffness has no mean to take, not even in the first step.
+        let options = Options { increment: Increment::Present, ..self.choices.options() };
+        super::spring(contact, normal, &options, [stiffness, dashpot], dt, history)
     }
 }

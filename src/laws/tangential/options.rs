@@ -10,7 +10,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::laws::rotation::Rotation;
-use crate::laws::slider::{Cap, History, Order};
+use crate::laws::slider::{Cap, History, Increment, Order};
 
 /// A lever arm from a centre to the contact; d is the overlap, R the radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -90,6 +90,8 @@ pub struct Options {
     pub rotation: Rotation,
     /// What comes first.
     pub order: Order,
+    /// The stiffness of an increment of force.
+    pub increment: Increment,
     /// What the limit holds.
     pub cap: Cap,
     /// What the coefficient of friction multiplies.
@@ -108,6 +110,7 @@ impl Options {
             history: History::Displacement,
             rotation: Rotation::Projection,
             order: Order::IncrementFirst,
+            increment: Increment::Present,
             cap: Cap::Elastic,
             ..Self::plain()
         }
@@ -120,6 +123,7 @@ impl Options {
         Self {
             history: History::Force,
             rotation: Rotation::SmallAngles,
+            increment: Increment::Present,
             cap: Cap::Elastic,
             friction: Friction::Total,
             wall_arms: ArmRule { slip: Arm::Surface, torque: Arm::Surface },
@@ -133,6 +137,7 @@ impl Options {
         Self {
             history,
             rotation: Rotation::ProjectionRescaled,
+            increment: Increment::Present,
             friction: Friction::Total,
             pair_arms: ArmRule { slip: Arm::Radius, torque: Arm::MidOverlap },
             wall_arms: ArmRule { slip: Arm::Radius, torque: Arm::Radius },
