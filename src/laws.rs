@@ -6,6 +6,7 @@
 
 pub mod drive;
 pub mod memory;
+pub mod mirror;
 pub mod model;
 pub mod moments;
 pub mod normal;
@@ -90,7 +91,8 @@ pub struct Losses {
     /// To plastic flow along the normal.
     pub plastic: f64,
     /// To the change of a loaded spring: its stiffness follows the overlap, and it turns with the contact. Micro-slip in
-    /// plain laws, where it is never negative; an artefact of either sign in laws that mirror other codes.
+    /// plain laws, where it is never negative; an artefact of either sign in laws that mirror other codes, with the work of
+    /// forces and moments on motions that their springs do not see.
     pub carried: f64,
 }
 

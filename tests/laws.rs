@@ -5,13 +5,15 @@
 
 #[path = "laws/collisions.rs"]
 mod collisions;
+#[path = "laws/invariants.rs"]
+mod invariants;
+#[path = "laws/ledger.rs"]
+mod ledger;
+#[path = "laws/micro_slip.rs"]
+mod micro_slip;
 #[path = "laws/moments.rs"]
 mod moments;
 #[path = "laws/normals.rs"]
 mod normals;
 #[path = "laws/scenes.rs"]
 mod scenes;
-#[path = "laws/invariants.rs"]
-mod invariants;
-#[path = "laws/micro_slip.rs"]
-mod micro_slip;

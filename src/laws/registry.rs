@@ -92,8 +92,7 @@ impl Specification {
             }
             Normal::LudingHysteretic { k1, kp, kc, plasticity_depth, dashpot, force_cut, rule } => {
                 let (loading, unloading, cohesive) = (k1, kp, kc);
-                let law =
-                    LudingHysteretic { loading, unloading, cohesive, plasticity_depth, dashpot, force_cut, rule };
+                let law = LudingHysteretic { loading, unloading, cohesive, plasticity_depth, dashpot, force_cut, rule };
                 self.linear(law, visitor)
             }
         }
@@ -103,7 +102,9 @@ impl Specification {
     fn spot<N: NormalLaw, V: Visitor>(&self, normal: N, visitor: V) -> Result<V::Output, Problem> {
         match self.tangential {
             Tangential::Frictionless => self.without_friction(normal, visitor),
-            Tangential::Mindlin { dashpot, options } if options == Options::plain() && self.moments == Moments::NONE => {
+            Tangential::Mindlin { dashpot, options }
+                if options == Options::plain() && self.moments == Moments::NONE =>
+            {
                 let tangential = Mindlin { choices: Plain, dashpot };
                 Ok(visitor.visit(Composed { normal, tangential, moments: Free }))
             }
@@ -179,4 +180,68 @@ pub(super) fn within(key: &str, value: f64, holds: bool, allowed: &str) -> Resul
 
 fn unknown(law: &str, known: &str) -> Problem {
     Problem::new("model.tangential.law", law, format!("with this normal law: {known}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::moments::any::Rolling;
+    use crate::laws::moments::elastic_plastic_rolling::{self, ElasticPlasticRolling, Stiffness};
+    use crate::laws::slider::History;
+
+    struct Nothing;
+
+    impl Visitor for Nothing {
+        type Output = ();
+
+        fn visit<M: ContactModel>(self, _: M) {}
+    }
+
+    fn luding(k1: f64, kc: f64) -> Normal {
+        let (rule, force_cut) = (Rule::SelfConsistent, false);
+        Normal::LudingHysteretic { k1, kp: 4e3, kc, plasticity_depth: 0.05, dashpot: 0.0, force_cut, rule }
+    }
+
+    fn refusal(normal: Normal, tangential: Tangential, moments: Moments) -> String {
+        let specification = Specification { normal, tangential, moments };
+        specification.build(Nothing).map_or_else(|problem| problem.to_string(), |()| "none".into())
+    }
+
+    #[test]
+    fn values_out_of_range_and_unknown_models_are_refused_by_key() {
+        let none = Moments::NONE;
+        let smooth = Tangential::Frictionless;
+        let hertz = Normal::Hertz { force_cut: true };
+        let mindlin = Tangential::Mindlin { dashpot: Dashpot::CriticalShare, options: Options::plain() };
+        assert_eq!(refusal(luding(1e3, 10.0), smooth, none), "none");
+        assert_eq!(refusal(hertz, mindlin, none), "none");
+        assert_eq!(refusal(luding(4e3, 10.0), smooth, none), "model.normal.kp = 4000: above k1");
+        assert_eq!(refusal(luding(1e3, -1.0), smooth, none), "model.normal.kc = -1: at least 0 N/m");
+        assert_eq!(
+            refusal(luding(1e3, 10.0), mindlin, none),
+            "model.tangential.law = mindlin: with this normal law: frictionless and linear_history"
+        );
+        let dashpot = elastic_plastic_rolling::Dashpot::None;
+        let spring = ElasticPlasticRolling::liggghts(Stiffness::Normal { factor: 0.0 }, dashpot, false);
+        let rolling = Moments { rolling: Rolling::ElasticPlasticRolling { spring }, twisting: None };
+        assert_eq!(
+            refusal(hertz, mindlin, rolling),
+            "model.moments.rolling.stiffness = 0: above 0 where the moment is capped"
+        );
+        let spring = ElasticPlasticRolling::plain();
+        let rolling = Moments { rolling: Rolling::ElasticPlasticRolling { spring }, twisting: None };
+        assert_eq!(refusal(hertz, smooth, rolling), "model.moments = a moment law: none where there is no friction");
+    }
+
+    #[test]
+    fn specifications_are_snake_case_json_and_refuse_unknown_keys() {
+        let options = Options::lammps(History::Force);
+        let tangential = Tangential::Mindlin { dashpot: Dashpot::CriticalShare, options };
+        let text = serde_json::to_string(&tangential).unwrap();
+        assert!(text.contains("\"law\":\"mindlin\"") && text.contains("\"rotation\":\"projection_rescaled\""));
+        assert_eq!(serde_json::from_str::<Tangential>(&text).unwrap(), tangential);
+        assert!(serde_json::from_str::<Normal>("{\"law\":\"hertz\",\"force_cut\":true,\"e\":1}").is_err());
+        let error = serde_json::from_str::<Normal>("{\"law\":\"hooke\"}").unwrap_err().to_string();
+        assert!(error.contains("luding_hysteretic"), "{error}");
+    }
 }

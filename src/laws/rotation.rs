@@ -109,3 +109,41 @@ fn rigid(vector: &Vector, turn: &Turn) -> Vector {
     let once = turn.to.cross(&tilted);
     tilted + (once + turn.to.cross(&once) * tangent) * (scale * tangent)
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn a_rigid_turn_keeps_lengths_and_takes_a_small_rotation_exactly_to_third_order(
+            axis in (-1.0..1.0f64, -1.0..1.0f64, 0.1..1.0f64), vector in (-1.0..1.0f64, -1.0..1.0f64, -1.0..1.0f64),
+        ) {
+            let angle = 1e-3;
+            let rotation = Rotation3::new(Vector::new(axis.0, axis.1, axis.2).normalize() * angle);
+            let from = Vector::x();
+            let spin = rotation.scaled_axis();
+            let turn = Turn { from, to: rotation * from, spin };
+            let vector = Vector::new(vector.0, vector.1, vector.2);
+            let carried = Rotation::Rigid.carry(&vector, &turn, 0.0);
+            prop_assert!((carried.norm() - vector.norm()).abs() < 1e-15);
+            prop_assert!((carried - rotation * vector).norm() < angle * angle * angle);
+        }
+    }
+
+    #[test]
+    fn each_rotation_breaks_length_as_its_table_says() {
+        let angle: f64 = 1e-3;
+        let to = Vector::new(angle.cos(), angle.sin(), 0.0);
+        let turn = Turn { from: Vector::x(), to, spin: Vector::z() * angle };
+        let grown = |rotation: Rotation| rotation.carry(&Vector::y(), &turn, 0.0).norm() - 1.0;
+        let second = 0.5 * angle * angle;
+        assert!((grown(Rotation::Projection) / -second - 1.0).abs() < 1e-5);
+        assert!((grown(Rotation::SmallAngles) / second - 1.0).abs() < 1e-5);
+        assert!(grown(Rotation::ProjectionRescaled).abs() < 1e-15);
+        assert!(grown(Rotation::Rigid).abs() < 1e-15);
+    }
+}

@@ -10,7 +10,7 @@
 //!
 //! Trial: e = -k (s + u dt) from a displacement s, or e = e0 - k u dt from a force; a rescaled force first shrinks to
 //! e0 k / k0 where k < k0 (Thornton, Cummins, Cleary, *Powder Technology* 210 (2011) 189). With a mean increment, k of
-//! the increment is (k0 + k) / 2 while k grows, which makes an undamped spring second order in the step; below, kd.
+//! the increment is (k0 + k) / 2 while k grows, which is second order in the step; below, kd.
 //!
 //! | cap | beyond the limit |
 //! |---|---|
@@ -139,7 +139,7 @@ impl Rules {
         } else {
             1.0
         };
-        let grows = self.increment == Increment::Mean && step.stiffness > before;
+        let grows = self.increment == Increment::Mean && !displacement && step.stiffness > before;
         let gain = if grows { 0.5 * (before + step.stiffness) } else { step.stiffness };
         // Elastic forces: of the last step, at the start of this one, and with the increment.
         let (last, base, remembered, trial) = if displacement {
@@ -192,4 +192,39 @@ impl Rules {
 #[inline(always)]
 fn choose(first: bool, one: &Vector, other: &Vector) -> Vector {
     Vector::from_fn(|axis, _| if first { one[axis] } else { other[axis] })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn work_is_stored_or_lost_and_native_springs_never_gain(
+            steps in proptest::collection::vec((-1.0..1.0f64, -1.0..1.0f64, 0.5..2.0f64, 0.1..1.0f64), 1..60),
+        ) {
+            for history in [History::Displacement, History::Force, History::ForceRescaled] {
+                for (cap, increment) in [(Cap::Total, Increment::Mean), (Cap::Elastic, Increment::Present)] {
+                    let order = Order::RotateFirst;
+                    let rules = Rules { history, rotation: Rotation::Fixed, order, increment, cap };
+                    let mut memory = Memory::default();
+                    let (mut work, mut lost, mut energy, mut last) = (0.0, 0.0, 0.0, Vector::zeros());
+                    for (x, y, stiffness, limit) in &steps {
+                        let rate = Vector::new(*x, *y, 0.0);
+                        let step = Step { rate, stiffness: *stiffness, dashpot: 0.0, limit: *limit, dt: 0.01 };
+                        let response = rules.advance(&step, &mut memory, |vector| *vector);
+                        work -= 0.5 * (response.force + last).dot(&rate) * 0.01;
+                        last = response.force;
+                        lost += response.slider + response.carried;
+                        energy = response.energy;
+                        prop_assert!(response.force.norm() <= limit * (1.0 + 1e-14));
+                        prop_assert!(response.slider >= -1e-15);
+                    }
+                    prop_assert!((work - lost - energy).abs() < 1e-12, "{:?} {} {} {}", rules, work, lost, energy);
+                }
+            }
+        }
+    }
 }

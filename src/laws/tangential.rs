@@ -38,6 +38,7 @@ fn spring(
 ) -> TangentialState {
     let direction = contact.geometry.normal;
     let [slip_i, slip_j] = arms(contact, |rule| rule.slip, options);
+    let [torque_i, torque_j] = arms(contact, |rule| rule.torque, options);
     let spin = contact.angular_i * slip_i + contact.angular_j * slip_j;
     let surface = contact.velocity - spin.cross(&direction);
     let rate = surface - direction * surface.dot(&direction);
@@ -51,20 +52,29 @@ fn spring(
     let turn = Turn::of(contact, dt);
     let scale = if options.history == History::Displacement { stiffness } else { 1.0 };
     let negligible = NEGLIGIBLE * limit / scale;
-    let rules = Rules { history: options.history, rotation: options.rotation, order: options.order, increment: options.increment, cap: options.cap };
+    let rules = Rules {
+        history: options.history,
+        rotation: options.rotation,
+        order: options.order,
+        increment: options.increment,
+        cap: options.cap,
+    };
     let step = Step { rate, stiffness, dashpot, limit, dt };
     let response = rules.advance(&step, history, |vector| options.rotation.carry(vector, &turn, negligible));
+    // Work of the force on a slip that the spring does not see, where its arms in torque and slip differ.
+    let unseen = contact.angular_i * (torque_i - slip_i) + contact.angular_j * (torque_j - slip_j);
+    let arms_work = response.force.dot(&unseen.cross(&direction)) * dt;
     TangentialState {
         force: response.force,
         sliding: response.sliding,
-        arms: arms(contact, |rule| rule.torque, options),
+        arms: [torque_i, torque_j],
         stiffness,
         dashpot,
         energy: response.energy,
         losses: Losses {
             viscous: response.viscous,
             frictional: response.slider,
-            carried: response.carried,
+            carried: response.carried + arms_work,
             ..Losses::default()
         },
     }

@@ -53,7 +53,9 @@ impl Moments {
             let key = "model.moments.rolling.stiffness";
             match spring.stiffness {
                 Stiffness::Tangential => {}
-                Stiffness::Constant { value } | Stiffness::PerRadiusSquared { value } | Stiffness::Normal { factor: value } => {
+                Stiffness::Constant { value }
+                | Stiffness::PerRadiusSquared { value }
+                | Stiffness::Normal { factor: value } => {
                     let capped = spring.limit != Limit::Unlimited;
                     within(key, value, value > 0.0 || value == 0.0 && !capped, "above 0 where the moment is capped")?;
                 }

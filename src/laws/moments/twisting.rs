@@ -121,9 +121,41 @@ impl MomentLaw for Twisting {
             }
         };
         let turn = Turn::of(contact, dt);
-        let rules = Rules { history: self.history, rotation: self.rotation, order: Order::RotateFirst, increment: self.increment(), cap: self.cap };
+        let rules = Rules {
+            history: self.history,
+            rotation: self.rotation,
+            order: Order::RotateFirst,
+            increment: self.increment(),
+            cap: self.cap,
+        };
         let step = Step { rate, stiffness, dashpot, limit, dt };
         let carry = |vector: &crate::Vector| self.rotation.carry_along_normal(vector, &turn);
         MomentState::of(&rules.advance(&step, history, carry))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::Vector;
+    use crate::laws::moments::probe;
+
+    proptest! {
+        #[test]
+        fn the_moment_lies_along_the_normal_resists_and_keeps_its_cap(
+            x in 0.1..9.0f64, y in -9.0..9.0f64, sign in -1.0..1.0f64, steps in 1..400u32,
+        ) {
+            let (contact, normal, tangential) = probe(Vector::new(x.copysign(sign), y, 0.0));
+            let limit = 2.0 / 3.0 * normal.contact_radius * contact.pair.twisting_friction * normal.force;
+            let mut history = Memory::default();
+            for _ in 0..steps {
+                let state = Twisting::plain().evaluate(&contact, &normal, &tangential, 1e-4, &mut history);
+                prop_assert!(state.moment.norm() <= limit * (1.0 + 1e-12));
+                prop_assert!(state.moment.x * x.copysign(sign) <= 0.0);
+                prop_assert!(state.moment.y == 0.0 && state.moment.z == 0.0);
+            }
+        }
     }
 }

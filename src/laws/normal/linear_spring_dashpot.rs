@@ -53,3 +53,39 @@ impl NormalLaw for LinearSpringDashpot {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn pair() -> PairLaw {
+        PairLaw {
+            effective_young: 5e6,
+            effective_radius: 1e-3,
+            effective_mass: 1e-5,
+            damping_ratio: 0.2,
+            work_of_adhesion: 0.05,
+            ..PairLaw::default()
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_force_is_the_slope_of_its_energy_and_the_dashpot_dissipates(
+            overlap in 1e-7..1e-4f64, normal_velocity in -5.0..5.0f64, force_cut: bool,
+        ) {
+            let law = LinearSpringDashpot { stiffness: 2e4, dashpot: 0.1, force_cut };
+            let at = |overlap| {
+                let approach = Approach { overlap, normal_velocity, radii: [2e-3; 2], at_body: false };
+                law.evaluate(&pair(), &approach, &(), &mut ())
+            };
+            let (state, width) = (at(overlap), 1e-4 * overlap);
+            let slope = (at(overlap + width).energy - at(overlap - width).energy) / (2.0 * width);
+            prop_assert!((slope / state.elastic - 1.0).abs() < 1e-9);
+            prop_assert!((state.force - state.elastic) * normal_velocity >= 0.0);
+            prop_assert!(!force_cut || state.force >= 0.0);
+        }
+    }
+}

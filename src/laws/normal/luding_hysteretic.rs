@@ -185,3 +185,72 @@ impl NormalLaw for LudingHysteretic {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn pair() -> PairLaw {
+        PairLaw {
+            effective_young: 5e6,
+            effective_radius: 1e-3,
+            effective_mass: 1e-5,
+            damping_ratio: 0.2,
+            work_of_adhesion: 0.05,
+            ..PairLaw::default()
+        }
+    }
+
+    fn law(rule: Rule) -> LudingHysteretic {
+        LudingHysteretic {
+            loading: 1e3,
+            unloading: 4e3,
+            cohesive: 800.0,
+            plasticity_depth: 0.05,
+            dashpot: 0.0,
+            force_cut: false,
+            rule,
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn work_is_stored_or_lost_to_plastic_flow_and_that_never_comes_back(
+            turns in proptest::collection::vec(0.01..1.0f64, 1..8),
+        ) {
+            let (mut history, mut last) = (Default::default(), (0.0, 0.0));
+            let (mut work, mut plastic, mut scale, mut overlap) = (0.0, 0.0, 1e-12, 0.0);
+            for target in turns.iter().map(|turn| turn * 1.2e-4) {
+                let from: f64 = overlap;
+                for step in 1..=4000 {
+                    overlap = from + (target - from) * f64::from(step) / 4000.0;
+                    let approach = Approach { overlap, normal_velocity: 0.0, radii: [2e-3; 2], at_body: false };
+                    let state = law(Rule::SelfConsistent).evaluate(&pair(), &approach, &(), &mut history);
+                    prop_assert!(state.plastic >= -1e-20);
+                    prop_assert!(state.elastic <= 4e3 * overlap && state.elastic >= -800.0 * overlap * (1.0 + 1e-12));
+                    work += 0.5 * (state.force + last.0) * (overlap - last.1);
+                    plastic += state.plastic;
+                    last = (state.force, overlap);
+                    scale = state.energy.max(scale).max(plastic);
+                    let open = work - plastic - state.energy;
+                    prop_assert!(open.abs() < 1e-3 * scale, "{} {} {}", work, plastic, state.energy);
+                }
+            }
+        }
+
+        #[test]
+        fn rules_agree_until_the_limit_of_cohesion(share in 0.01..1.0f64) {
+            let mut forces = [0.0; 3];
+            for (rule, force) in [Rule::SelfConsistent, Rule::OldStiffness, Rule::LudingPm].into_iter().zip(&mut forces) {
+                let mut history = Default::default();
+                for overlap in [share * 5e-5, share * 5e-5, share * 4.9e-5] {
+                    let approach = Approach { overlap, normal_velocity: 0.0, radii: [2e-3; 2], at_body: false };
+                    *force = law(rule).evaluate(&pair(), &approach, &(), &mut history).force;
+                }
+            }
+            prop_assert!((forces[0] - forces[1]).abs() < 1e-15);
+        }
+    }
+}

@@ -69,3 +69,52 @@ impl Attraction for Lens {
         cohesive::hertz_pull_off(pair, TAU * self.energy_density * pair.effective_radius)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::laws::{NormalLaw, NormalState};
+
+    fn pair() -> PairLaw {
+        PairLaw {
+            effective_young: 5e6,
+            effective_radius: 1e-3,
+            effective_mass: 1e-5,
+            damping_ratio: 0.2,
+            work_of_adhesion: 0.05,
+            ..PairLaw::default()
+        }
+    }
+
+    fn state(overlap: f64, other: f64, at_body: bool) -> NormalState {
+        let radii = [2e-3, other];
+        let effective_radius = if at_body { radii[0] } else { crate::material::reduced(radii[0], other) };
+        let approach = Approach { overlap, normal_velocity: 0.0, radii, at_body };
+        Sjkr::with_hertz(true, Lens { energy_density: 4e4 }).evaluate(
+            &PairLaw { effective_radius, ..pair() },
+            &approach,
+            &(),
+            &mut (),
+        )
+    }
+
+    proptest! {
+        #[test]
+        fn the_force_is_the_slope_of_its_energy(overlap in 1e-7..1e-4f64, other in 1e-3..1e-2f64, at_body: bool) {
+            let width = 1e-3 * overlap;
+            let energy = |overlap| state(overlap, other, at_body).energy;
+            let slope = (energy(overlap + width) - energy(overlap - width)) / (2.0 * width);
+            let got = state(overlap, other, at_body);
+            prop_assert!((slope - got.elastic).abs() < 1e-5 * (got.repulsive.abs() + got.pull_off));
+        }
+
+        #[test]
+        fn a_wall_attracts_as_a_large_sphere_times_its_ratio(overlap in 1e-7..1e-4f64) {
+            let attraction = |state: NormalState| state.repulsive - state.force;
+            let ratio = attraction(state(overlap, 2e3, true)) / attraction(state(overlap, 2e3, false));
+            prop_assert!((ratio / 1.0 - 1.0).abs() < 1e-5);
+        }
+    }
+}
