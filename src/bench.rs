@@ -27,6 +27,7 @@ pub type Model = Composed<Hertz, Mindlin<Timed>, Free>;
 pub struct Timed;
 
 impl Choices for Timed {
+    #[allow(clippy::inline_always, reason = "the batch of contacts is vectorised only where laws are inlined")]
     #[inline(always)]
     fn options(&self) -> options::Options {
         options::Options {

@@ -35,6 +35,7 @@ impl ContactGeometry {
     /// The normal one step `dt` [s] earlier, from the present normal and the velocity [m/s] of i less that of j over the
     /// step: both schemes move centres by exactly velocity times dt. Bodies do not turn.
     #[must_use]
+    #[allow(clippy::inline_always, reason = "the batch of contacts is vectorised only where laws are inlined")]
     #[inline(always)]
     pub fn previous_normal(&self, velocity: &Vector, dt: f64) -> Vector {
         let velocity = match self.surface {

@@ -6,7 +6,7 @@ use crate::error::Problem;
 
 use super::moments::any::{Moments, Rolling};
 use super::moments::elastic_plastic_rolling::Stiffness;
-use super::normal::luding_hysteretic::Rule;
+use super::normal::hysteretic_branches::Rule;
 use super::registry::{Normal, Specification, Tangential};
 use super::slider::History;
 use super::tangential::options::{Friction, Options};

@@ -3,12 +3,14 @@
 pub mod any;
 pub mod constant_torque;
 pub mod elastic_plastic_rolling;
+pub mod rolling_options;
 pub mod twisting;
 
 use crate::Vector;
 use crate::geometry::Surface;
 
-use super::{Contact, MomentLaw, MomentState, NormalState, TangentialState};
+use super::slider::Response;
+use super::{Contact, Losses, MomentLaw, MomentState, NormalState, TangentialState};
 
 impl<A: MomentLaw, B: MomentLaw> MomentLaw for (A, B) {
     type History = (A::History, B::History);
@@ -32,6 +34,23 @@ impl<A: MomentLaw, B: MomentLaw> MomentLaw for (A, B) {
     }
 }
 
+impl MomentState {
+    /// The moment of a spring.
+    #[inline(always)]
+    fn of(response: &Response) -> Self {
+        Self {
+            moment: response.force,
+            energy: response.energy,
+            losses: Losses {
+                viscous: response.viscous,
+                rolling: response.slider,
+                carried: response.carried,
+                ..Losses::default()
+            },
+        }
+    }
+}
+
 /// Spin of i less that of j [rad/s].
 #[inline(always)]
 fn relative_spin(contact: &Contact) -> Vector {
@@ -42,13 +61,11 @@ fn relative_spin(contact: &Contact) -> Vector {
 #[inline(always)]
 fn liggghts_spin(contact: &Contact) -> Vector {
     let geometry = &contact.geometry;
-    match geometry.surface {
-        Surface::Sphere => relative_spin(contact),
-        _ => {
-            let arm = geometry.radius_i - 0.5 * geometry.overlap;
-            contact.angular_i * (arm / (geometry.radius_i - geometry.overlap))
-        }
+    if geometry.surface == Surface::Sphere {
+        return relative_spin(contact);
     }
+    let arm = geometry.radius_i - 0.5 * geometry.overlap;
+    contact.angular_i * (arm / (geometry.radius_i - geometry.overlap))
 }
 
 /// Moment of inertia of both bodies about the contact, 7/5 of the reduced m R^2 [kg m2].
@@ -84,7 +101,7 @@ pub(crate) fn probe(spin: Vector) -> (Contact, NormalState, TangentialState) {
         stiffness: 500.0,
         dashpot: 0.1,
         energy: 0.0,
-        losses: super::Losses::default(),
+        losses: Losses::default(),
     };
     (contact, normal, tangential)
 }

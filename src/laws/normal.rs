@@ -3,6 +3,7 @@
 pub mod cohesive;
 pub mod dmt;
 pub mod hertz;
+pub mod hysteretic_branches;
 pub mod linear_spring_dashpot;
 pub mod luding_hysteretic;
 pub mod sjkr;

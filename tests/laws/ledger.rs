@@ -7,7 +7,8 @@ use crossgrain::laws::moments::elastic_plastic_rolling::{self, ElasticPlasticRol
 use crossgrain::laws::moments::twisting::Twisting;
 use crossgrain::laws::normal::dmt::Dmt;
 use crossgrain::laws::normal::hertz::Hertz;
-use crossgrain::laws::normal::luding_hysteretic::{LudingHysteretic, Rule};
+use crossgrain::laws::normal::hysteretic_branches::Rule;
+use crossgrain::laws::normal::luding_hysteretic::LudingHysteretic;
 use crossgrain::laws::slider::History;
 use crossgrain::laws::tangential::linear_history::LinearHistory;
 use crossgrain::laws::tangential::mindlin::Mindlin;

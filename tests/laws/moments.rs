@@ -22,9 +22,9 @@ const SPIN: f64 = 10.0;
 const DT: f64 = 1e-6;
 /// Eight printed digits.
 const PRINTED: f64 = 5e-8;
-/// Measured mu_r F_n R* [N m].
+/// Measured `mu_r` `F_n` R* [N m].
 const PLATEAU: f64 = 7.133_545_7e-8;
-/// Measured kt R*^2 [N m].
+/// Measured `kt` R*^2 [N m].
 const KT: f64 = 1.468_671_2e-4;
 
 /// Moments opposing the spin at steps 10, 20 and the last.

@@ -6,7 +6,8 @@ use crossgrain::laws::model::{Composed, Free, Frictionless};
 use crossgrain::laws::normal::cohesive::{Cohesive, DashpotLimit};
 use crossgrain::laws::normal::dmt::Dmt;
 use crossgrain::laws::normal::hertz::Hertz;
-use crossgrain::laws::normal::luding_hysteretic::{LudingHysteretic, Rule};
+use crossgrain::laws::normal::hysteretic_branches::Rule;
+use crossgrain::laws::normal::luding_hysteretic::LudingHysteretic;
 use crossgrain::laws::normal::{sjkr, sjkr2};
 use crossgrain::laws::{NormalLaw, PairLaw};
 

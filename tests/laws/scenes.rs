@@ -58,7 +58,7 @@ pub fn oblique<M: ContactModel>(model: M, pair: PairLaw, tangential: f64, spin: 
     [end[0].velocity.x, end[0].velocity.z, end[0].angular_velocity.y, end[1].angular_velocity.y, peak]
 }
 
-/// The collision with a wall: v_n, v_t and spin in the codes' axes (wall along z, tangential x, spin y).
+/// The collision with a wall: `v_n`, `v_t` and spin in the codes' axes (wall along z, tangential x, spin y).
 pub fn wall<M: ContactModel>(model: M, couple: Couple, dt: f64, steps: u64) -> [f64; 3] {
     let ball = Motion { velocity: Vector::new(-0.5, 0.1, 0.0), ..still(Vector::new(couple.radii[0] + 1e-6, 0.0, 0.0)) };
     let end = Single::new(model, couple).fly([ball, still(Vector::zeros())], dt, steps, |_, _| ()).unwrap();

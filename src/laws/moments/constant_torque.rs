@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | w, w_r | relative spin wi - wj, its part across the normal | rad/s |
+//! | w, `w_r` | relative spin wi - wj, its part across the normal | rad/s |
 //! | `F_e` | elastic normal force | N |
 //! | `mu_r`, R* | coefficient of rolling friction, effective radius | -, m |
 //!

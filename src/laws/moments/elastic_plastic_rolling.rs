@@ -35,63 +35,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::laws::rotation::{Rotation, Turn};
 use crate::laws::slider::{Cap, History, Increment, Memory, Order, Rules, Step};
-use crate::laws::{Contact, Losses, MomentLaw, MomentState, NormalState, TangentialState};
+use crate::laws::{Contact, MomentLaw, MomentState, NormalState, TangentialState};
 
 /// Sine of the angle to the contact plane below which LAMMPS leaves its spring alone, relative to the cap.
 const NEGLIGIBLE: f64 = 1e-10;
 
-/// Rolling stiffness.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Stiffness {
-    /// kt R*^2.
-    Tangential,
-    /// The same for all contacts.
-    Constant {
-        /// Stiffness [N m].
-        value: f64,
-    },
-    /// value R*^2.
-    PerRadiusSquared {
-        /// Stiffness of the rolling displacement [N/m].
-        value: f64,
-    },
-    /// factor kn `mu_r`^2 R*^2.
-    Normal {
-        /// Factor [-].
-        factor: f64,
-    },
-}
-
-/// Largest moment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Limit {
-    /// `mu_r` abs(`F_n`) R*.
-    EffectiveRadius,
-    /// `mu_r` abs(`F_n`) (Ri + Rj) / 2.
-    MeanRadius,
-    /// None.
-    Unlimited,
-}
-
-/// Rolling dashpot.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Dashpot {
-    /// None.
-    None,
-    /// A share of critical damping.
-    CriticalShare {
-        /// Share [-].
-        value: f64,
-    },
-    /// value R*^2.
-    PerRadiusSquared {
-        /// Constant of the rolling velocity [kg/s].
-        value: f64,
-    },
-}
+pub use super::rolling_options::{Dashpot, Limit, Stiffness};
 
 /// The law; its coefficient comes with each pair.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -233,23 +182,6 @@ impl MomentLaw for ElasticPlasticRolling {
         // Work on spins that the spring does not see: none in native laws.
         state.losses.carried -= response.force.dot(&(super::relative_spin(contact) - rate)) * dt;
         state
-    }
-}
-
-impl MomentState {
-    /// The moment of a spring.
-    #[inline(always)]
-    pub(super) fn of(response: &crate::laws::slider::Response) -> Self {
-        Self {
-            moment: response.force,
-            energy: response.energy,
-            losses: Losses {
-                viscous: response.viscous,
-                rolling: response.slider,
-                carried: response.carried,
-                ..Losses::default()
-            },
-        }
     }
 }
 
