@@ -140,8 +140,9 @@ fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
             let measured = measured?;
             for one in &measured {
                 let bytes = one.peak_memory_bytes.unwrap_or_default() / one.particles.max(1) as u64;
-                let speed = one.ns_per_particle_step;
-                say(format!("{}, {} threads: {speed:.1} ns per particle-step, {bytes} bytes per particle", one.state, one.threads))?;
+                let (wall, cpu) = (one.ns_per_particle_step, one.cpu_ns_per_particle_step.unwrap_or(f64::NAN));
+                let name = format!("{}, {} threads", one.state, one.threads);
+                say(format!("{name}: {wall:.1} ns per particle-step (cpu {cpu:.1}), {bytes} bytes per particle"))?;
             }
             let file = out.join("bench.json");
             let text = serde_json::to_string_pretty(&measured).unwrap_or_default();

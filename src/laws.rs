@@ -141,7 +141,7 @@ pub struct Contact {
 impl Contact {
     /// Overlap and normal velocity.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn approach(&self) -> Approach {
         Approach {
             overlap: self.geometry.overlap,

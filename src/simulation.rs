@@ -1,6 +1,7 @@
 //! One step is the passes in order, nothing else: move the particles, rebuild the neighbour list if it is stale, sweep
 //! over the contacts, gather.
 
+mod batch;
 mod motion;
 pub mod run;
 mod sweep;

@@ -65,7 +65,7 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
         self.normal.reach()
     }
 
-    #[inline]
+    #[inline(always)]
     fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action {
         let normal = self.normal.evaluate(&contact.pair, &contact.approach(), shared, &mut history.0);
         let tangential = self.tangential.evaluate(contact, &normal, dt, &mut history.1);
@@ -91,6 +91,7 @@ pub struct Frictionless;
 impl TangentialLaw for Frictionless {
     type History = ();
 
+    #[inline(always)]
     fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> TangentialState {
         TangentialState { force: Vector::zeros(), sliding: false, arms: [0.0; 2] }
     }
@@ -103,6 +104,7 @@ pub struct Free;
 impl MomentLaw for Free {
     type History = ();
 
+    #[inline(always)]
     fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> Vector {
         Vector::zeros()
     }

@@ -52,7 +52,7 @@ impl NormalLaw for Hertz {
     type History = ();
     type Shared = ();
 
-    #[inline]
+    #[inline(always)]
     fn evaluate(&self, pair: &PairLaw, approach: &Approach, (): &(), (): &mut ()) -> NormalState {
         let contact_radius = (pair.effective_radius * approach.overlap).sqrt();
         let tangent_stiffness = 2.0 * pair.effective_young * contact_radius;

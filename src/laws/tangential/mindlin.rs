@@ -24,7 +24,7 @@ pub struct Mindlin;
 impl TangentialLaw for Mindlin {
     type History = Vector;
 
-    #[inline]
+    #[inline(always)]
     fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Vector) -> TangentialState {
         let geometry = &contact.geometry;
         let direction = geometry.normal;
@@ -50,14 +50,12 @@ impl TangentialLaw for Mindlin {
         let trial = displacement * -stiffness - slip * dashpot;
         let cap = contact.pair.friction * normal.force.abs();
         let squared = trial.norm_squared();
+        // Chosen by value, not by branch, so that contacts are evaluated several at a time.
         let sliding = squared > cap * cap;
-        if sliding {
-            let force = trial * (cap / squared.sqrt());
-            *history = (force + slip * dashpot) * (-1.0 / stiffness);
-            TangentialState { force, sliding, arms: [arm_i, arm_j] }
-        } else {
-            *history = displacement;
-            TangentialState { force: trial, sliding, arms: [arm_i, arm_j] }
-        }
+        let force = trial * if sliding { cap / squared.sqrt() } else { 1.0 };
+        let slipped = (force + slip * dashpot) * (-1.0 / stiffness);
+        let choose = |axis: usize| if sliding { slipped[axis] } else { displacement[axis] };
+        *history = Vector::new(choose(0), choose(1), choose(2));
+        TangentialState { force, sliding, arms: [arm_i, arm_j] }
     }
 }
