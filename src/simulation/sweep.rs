@@ -184,6 +184,8 @@ impl<M: ContactModel> View<'_, M> {
     /// law chooses by value.
     #[inline(always)]
     fn evaluate_all(&self, count: usize, states: &States, actions: &mut Actions, histories: &mut [M::History; LANES]) {
+        // Copies: what stands behind `self` might otherwise change with every lane, for all that the compiler knows.
+        let (model, shared, elapsed) = (self.model, *self.shared, self.elapsed);
         for lane in 0..count.next_multiple_of(8).min(LANES) {
             let branch = states.branch.get(lane);
             let squared = branch.norm_squared();
@@ -203,8 +205,8 @@ impl<M: ContactModel> View<'_, M> {
                 angular_j: states.angular_j.get(lane),
             };
             let history = &mut histories[lane];
-            let alive = (squared > 0.0) & self.model.alive(geometry.overlap, history);
-            let action = self.model.evaluate(&contact, self.shared, self.elapsed, history);
+            let alive = (squared > 0.0) & model.alive(geometry.overlap, history);
+            let action = model.evaluate(&contact, &shared, elapsed, history);
             actions.alive[lane] = alive;
             actions.force.set(lane, &action.force);
             actions.torque_i.set(lane, &action.torque_i);
