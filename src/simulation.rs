@@ -4,6 +4,7 @@
 mod batch;
 mod motion;
 pub mod run;
+mod state;
 mod sweep;
 
 use crate::Vector;
@@ -18,7 +19,7 @@ use crate::neighbors::Neighbors;
 use crate::observables::energy::Ledger;
 use crate::particles::Particles;
 
-pub use run::{Options, run};
+pub use run::{Checkpoints, Options, run};
 
 /// Skin of the neighbour list, as a share of the smallest radius.
 const SKIN: f64 = 0.25;

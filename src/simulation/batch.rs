@@ -10,6 +10,8 @@ pub const LANES: usize = 64;
 pub struct Vectors([[f64; LANES]; 3]);
 
 impl Vectors {
+    const ZERO: Self = Self([[0.0; LANES]; 3]);
+
     #[inline(always)]
     pub fn get(&self, lane: usize) -> Vector {
         Vector::new(self.0[0][lane], self.0[1][lane], self.0[2][lane])
@@ -39,6 +41,26 @@ pub struct States {
     pub damping: [f64; LANES],
 }
 
+impl States {
+    pub fn new() -> Self {
+        let scalars = [0.0; LANES];
+        Self {
+            branch: Vectors::ZERO,
+            velocity: Vectors::ZERO,
+            angular_i: Vectors::ZERO,
+            angular_j: Vectors::ZERO,
+            radius_i: scalars,
+            radius_j: scalars,
+            mass_i: scalars,
+            mass_j: scalars,
+            young: scalars,
+            shear: scalars,
+            friction: scalars,
+            damping: scalars,
+        }
+    }
+}
+
 /// What they do.
 pub struct Actions {
     pub alive: [bool; LANES],
@@ -52,51 +74,26 @@ pub struct Actions {
 }
 
 impl Actions {
+    pub fn new() -> Self {
+        let scalars = [0.0; LANES];
+        Self {
+            alive: [false; LANES],
+            force: Vectors::ZERO,
+            torque_i: Vectors::ZERO,
+            torque_j: Vectors::ZERO,
+            normal_force: scalars,
+            damping_force: scalars,
+            energy: scalars,
+            approach: scalars,
+        }
+    }
+
     pub fn account(&self, lane: usize) -> Account {
         Account {
             force: self.force.get(lane),
             normal_force: self.normal_force[lane],
             damping_force: self.damping_force[lane],
             energy: self.energy[lane],
-        }
-    }
-}
-
-/// Both.
-pub struct Batch {
-    pub states: States,
-    pub actions: Actions,
-}
-
-impl Batch {
-    pub fn new() -> Self {
-        let scalars = [0.0; LANES];
-        let vectors = || Vectors([scalars; 3]);
-        Self {
-            states: States {
-                branch: vectors(),
-                velocity: vectors(),
-                angular_i: vectors(),
-                angular_j: vectors(),
-                radius_i: scalars,
-                radius_j: scalars,
-                mass_i: scalars,
-                mass_j: scalars,
-                young: scalars,
-                shear: scalars,
-                friction: scalars,
-                damping: scalars,
-            },
-            actions: Actions {
-                alive: [false; LANES],
-                force: vectors(),
-                torque_i: vectors(),
-                torque_j: vectors(),
-                normal_force: scalars,
-                damping_force: scalars,
-                energy: scalars,
-                approach: scalars,
-            },
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::neighbors::Near;
 use crate::particles::{Load, Motion, Place};
 
 use super::Simulation;
-use super::batch::{Actions, Batch, LANES, States};
+use super::batch::{Actions, LANES, States};
 
 /// Share by which the first, cheap test of a pair is wider than the law's own.
 const SLACK: f64 = 1.0 + 1e-12;
@@ -121,12 +121,12 @@ impl<M: ContactModel> View<'_, M> {
         block.flow = Flow::default();
         let mut active = std::mem::take(&mut block.active);
         self.select(&block.pairs, &mut active);
-        let mut batch = Batch::new();
+        let (mut states, mut actions) = (States::new(), Actions::new());
         let mut histories = [M::History::default(); LANES];
         for slots in active.chunks(LANES) {
-            self.load(slots, &block.pairs, &mut batch.states, &mut histories);
-            self.evaluate_all(slots.len(), &batch.states, &mut batch.actions, &mut histories);
-            self.store::<LEDGER>(slots, &batch, &histories, block, loads);
+            self.load(slots, &block.pairs, &mut states, &mut histories);
+            self.evaluate_all(slots.len(), &states, &mut actions, &mut histories);
+            self.store::<LEDGER>(slots, &actions, &histories, block, loads);
         }
         block.active = active;
         for slot in 0..block.near.candidates.len() {
@@ -223,12 +223,11 @@ impl<M: ContactModel> View<'_, M> {
     fn store<const LEDGER: bool>(
         &self,
         slots: &[u32],
-        batch: &Batch,
+        actions: &Actions,
         histories: &[M::History; LANES],
         block: &mut Block<M::History>,
         loads: &mut [Load],
     ) {
-        let actions = &batch.actions;
         let first = block.first;
         for (slot, lane) in slots.iter().zip(0..LANES) {
             let slot = *slot as usize;
