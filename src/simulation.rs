@@ -1,7 +1,6 @@
 //! One step is the passes in order, nothing else: move the particles, rebuild the neighbour list if it is stale, sweep
 //! over the contacts, gather.
 
-mod batch;
 mod motion;
 pub mod run;
 mod state;
@@ -249,6 +248,13 @@ impl<M: ContactModel> Simulation<M> {
             for place in &mut self.particles.place {
                 place.position[axis] = min + (place.position[axis] - min) * factor;
             }
+        }
+    }
+
+    /// Takes back the last half kick of velocity Verlet: the velocities that the present loads saw, to rounding.
+    pub fn undo_half_kick(&mut self) {
+        for (motion, load) in self.particles.motion.iter_mut().zip(&self.particles.load) {
+            motion.velocity -= (load.force / motion.mass + self.gravity) * (0.5 * self.time_step);
         }
     }
 

@@ -50,12 +50,14 @@ impl TangentialLaw for Mindlin {
         let trial = displacement * -stiffness - slip * dashpot;
         let cap = contact.pair.friction * normal.force.abs();
         let squared = trial.norm_squared();
-        // Chosen by value, not by branch, so that contacts are evaluated several at a time.
         let sliding = squared > cap * cap;
-        let force = trial * if sliding { cap / squared.sqrt() } else { 1.0 };
-        let slipped = (force + slip * dashpot) * (-1.0 / stiffness);
-        let choose = |axis: usize| if sliding { slipped[axis] } else { displacement[axis] };
-        *history = Vector::new(choose(0), choose(1), choose(2));
-        TangentialState { force, sliding, arms: [arm_i, arm_j] }
+        if sliding {
+            let force = trial * (cap / squared.sqrt());
+            *history = (force + slip * dashpot) * (-1.0 / stiffness);
+            TangentialState { force, sliding, arms: [arm_i, arm_j] }
+        } else {
+            *history = displacement;
+            TangentialState { force: trial, sliding, arms: [arm_i, arm_j] }
+        }
     }
 }
