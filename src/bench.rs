@@ -64,6 +64,9 @@ pub struct Measurement {
     pub steps: u64,
     /// Median over the repeats [ns].
     pub ns_per_particle_step: f64,
+    /// Processor time of all threads over all repeats [ns], which a busy machine disturbs less; null where the system
+    /// does not tell.
+    pub cpu_ns_per_particle_step: Option<f64>,
     /// Each repeat [ns].
     pub repeats: Vec<f64>,
     /// Largest resident memory of the process since the state was read [bytes], null where the system does not tell.
@@ -85,12 +88,15 @@ pub fn time(bed: &Bed, threads: usize, steps: u64, repeats: usize) -> Result<Mea
         let mut done = 100;
         simulation.advance_to(done)?;
         let mut times = Vec::with_capacity(repeats);
+        let used = cpu_time();
         for _ in 0..repeats {
             let started = Instant::now();
             done += steps;
             simulation.advance_to(done)?;
             times.push(started.elapsed().as_secs_f64() * 1e9 / (steps as f64 * bed.len() as f64));
         }
+        let total = steps as f64 * bed.len() as f64 * repeats as f64;
+        let used = cpu_time().zip(used).map(|(after, before)| (after - before) * 1e9 / total);
         simulation.finite()?;
         let mut sorted = times.clone();
         sorted.sort_by(f64::total_cmp);
@@ -103,6 +109,7 @@ pub fn time(bed: &Bed, threads: usize, steps: u64, repeats: usize) -> Result<Mea
             contacts: simulation.contacts().living(),
             steps,
             ns_per_particle_step: sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN),
+            cpu_ns_per_particle_step: used,
             repeats: times,
             peak_memory_bytes: peak_memory(),
         })
@@ -162,4 +169,11 @@ fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     line.split_whitespace().next()?.parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
+}
+
+/// User time of the process [s], in ticks of 10 ms.
+fn cpu_time() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields = status.rsplit_once(')')?.1;
+    fields.split_whitespace().nth(11)?.parse::<f64>().ok().map(|ticks| ticks / 100.0)
 }

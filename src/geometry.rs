@@ -51,7 +51,7 @@ impl ContactGeometry {
 
     /// R* = `Ri` `Rj` / (`Ri` + `Rj`), `Ri` at a plane, `Ri` `Rc` / (`Rc` - `Ri`) inside a cylinder of radius `Rc` [m].
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn effective_radius(&self) -> f64 {
         if self.radius_j.is_infinite() { self.radius_i } else { crate::material::reduced(self.radius_i, self.radius_j) }
     }
@@ -67,7 +67,7 @@ pub fn sphere_sphere(center_i: Vector, radius_i: f64, center_j: Vector, radius_j
 
 /// Two spheres from their branch vector (from j to i) [m] and its square [m2], which is not zero.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn spheres(branch: Vector, squared: f64, radius_i: f64, radius_j: f64) -> ContactGeometry {
     let distance = squared.sqrt();
     ContactGeometry {

@@ -3,6 +3,7 @@
 
 mod motion;
 pub mod run;
+mod state;
 mod sweep;
 
 use crate::Vector;
@@ -17,7 +18,7 @@ use crate::neighbors::Neighbors;
 use crate::observables::energy::Ledger;
 use crate::particles::Particles;
 
-pub use run::{Options, run};
+pub use run::{Checkpoints, Options, run};
 
 /// Skin of the neighbour list, as a share of the smallest radius.
 const SKIN: f64 = 0.25;
@@ -247,6 +248,13 @@ impl<M: ContactModel> Simulation<M> {
             for place in &mut self.particles.place {
                 place.position[axis] = min + (place.position[axis] - min) * factor;
             }
+        }
+    }
+
+    /// Takes back the last half kick of velocity Verlet: the velocities that the present loads saw, to rounding.
+    pub fn undo_half_kick(&mut self) {
+        for (motion, load) in self.particles.motion.iter_mut().zip(&self.particles.load) {
+            motion.velocity -= (load.force / motion.mass + self.gravity) * (0.5 * self.time_step);
         }
     }
 
