@@ -75,6 +75,9 @@ pub struct PairProperties {
     pub damping_ratio: f64,
     /// Restitution as the case asked for it [-], if it did.
     pub restitution: Option<f64>,
+    /// Coefficient of friction [-], for the laws that ask for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
 }
 
 /// 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [Pa]; infinite for two rigid solids.

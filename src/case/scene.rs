@@ -14,6 +14,7 @@ use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Level};
 use super::source::ParticleSource;
 use crate::Vector;
+use crate::bodies::Body;
 use crate::error::Problem;
 use crate::geometry::{self, ContactGeometry};
 use crate::laws::PairLaw;
@@ -102,6 +103,7 @@ pub struct SceneBody {
 #[expect(missing_docs, reason = "docs/formats.md describes every field")]
 pub enum SceneShape {
     Plane { point: [f64; 3], normal: [f64; 3] },
+    Cylinder { point: [f64; 3], axis: [f64; 3], radius: f64 },
 }
 
 /// Motion of a wall [m/s].
@@ -235,6 +237,7 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
             effective_shear: shear.is_finite().then_some(shear),
             damping_ratio,
             restitution,
+            friction: None,
         }
     };
     case.pairs.iter().map(mixed).collect()
@@ -243,12 +246,18 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
 fn bodies(case: &Case) -> Vec<SceneBody> {
     let mut scene = Vec::new();
     for body in &case.bodies {
-        let Shape::Plane { point, normal } = &body.shape else { continue };
-        let normal = Vector::from(normal.map(Number::get)).normalize();
+        let unit = |direction: &[Number; 3]| Vector::from(direction.map(Number::get)).normalize().into();
+        let shape = match &body.shape {
+            Shape::Plane { point, normal } => SceneShape::Plane { point: si(point), normal: unit(normal) },
+            Shape::Cylinder { point, axis, radius } => {
+                SceneShape::Cylinder { point: si(point), axis: unit(axis), radius: radius.si() }
+            }
+            Shape::Mesh { .. } => continue,
+        };
         scene.push(SceneBody {
             name: body.name.clone(),
             material: index(case, &body.material),
-            shape: SceneShape::Plane { point: si(point), normal: normal.into() },
+            shape,
             motion: match &body.motion {
                 Motion::Prescribed { velocity } => SceneMotion::Prescribed { velocity: si(velocity) },
                 _ => SceneMotion::Fixed,
@@ -317,6 +326,7 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
                         effective_radius: geometry.effective_radius(),
                         effective_mass: mass,
                         damping_ratio: pair.damping_ratio,
+                        ..PairLaw::default()
                     },
                     speed,
                 });
@@ -346,8 +356,7 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
             )?;
         }
         for body in &scene.bodies {
-            let SceneShape::Plane { point, normal } = &body.shape;
-            let geometry = geometry::sphere_plane(center, one.radius, (*point).into(), (*normal).into());
+            let Some(geometry) = Body::new(body).geometry(center, one.radius) else { continue };
             let wall = match &body.motion {
                 SceneMotion::Prescribed { velocity } => Vector::from(*velocity),
                 SceneMotion::Fixed => Vector::zeros(),

@@ -54,9 +54,12 @@ impl Scene {
             }
         }
         for (i, body) in self.bodies.iter().enumerate() {
-            let SceneShape::Plane { normal, .. } = &body.shape;
-            if (Vector::from(*normal).norm() - 1.0).abs() > 1e-9 {
-                return Some(format!("bodies.{i}.shape.normal = {normal:?}: must have the length 1"));
+            let (key, direction) = match &body.shape {
+                SceneShape::Plane { normal, .. } => ("normal", normal),
+                SceneShape::Cylinder { axis, .. } => ("axis", axis),
+            };
+            if (Vector::from(*direction).norm() - 1.0).abs() > 1e-9 {
+                return Some(format!("bodies.{i}.shape.{key} = {direction:?}: must have the length 1"));
             }
         }
         let mut places = HashSet::new();
