@@ -14,7 +14,7 @@ use crate::neighbors::Near;
 use crate::particles::{Load, Particles};
 
 /// Particles of a block.
-pub const BLOCK: usize = 1024;
+pub const BLOCK: usize = 2048;
 /// Largest number of particles: the image of a pair takes the other bits.
 pub const MOST: usize = 1 << INDEX_BITS;
 /// The bits of an index.

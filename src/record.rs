@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use npyz::WriterBuilder;
 use npyz::npz::NpzWriter;
+use npyz::zip::DateTime;
 use npyz::zip::write::FileOptions;
 use serde_json::json;
 
@@ -132,13 +133,20 @@ impl Recorder {
     fn write_columns(&self, path: &Path) -> std::io::Result<()> {
         let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
         let samples = self.steps.len() as u64;
-        let mut steps = archive.array("step", FileOptions::default())?.default_dtype().shape(&[samples]).begin_nd()?;
+        let mut steps = archive
+            .array("step", FileOptions::default().last_modified_time(DateTime::default()))?
+            .default_dtype()
+            .shape(&[samples])
+            .begin_nd()?;
         steps.extend(self.steps.iter().copied())?;
         steps.finish()?;
         for column in &self.columns {
             let shape: Vec<u64> = std::iter::once(samples).chain(column.shape.iter().copied()).collect();
-            let mut writer =
-                archive.array(column.name, FileOptions::default())?.default_dtype().shape(&shape).begin_nd()?;
+            let mut writer = archive
+                .array(column.name, FileOptions::default().last_modified_time(DateTime::default()))?
+                .default_dtype()
+                .shape(&shape)
+                .begin_nd()?;
             writer.extend(column.values.iter().copied())?;
             writer.finish()?;
         }

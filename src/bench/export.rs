@@ -7,6 +7,7 @@ use std::path::Path;
 
 use npyz::WriterBuilder;
 use npyz::npz::{NpzArchive, NpzWriter};
+use npyz::zip::DateTime;
 use npyz::zip::write::FileOptions;
 
 use crate::Vector;
@@ -29,7 +30,11 @@ fn columns(bed: &Bed, path: &Path) -> std::io::Result<()> {
     let named = [("position", &bed.position), ("velocity", &bed.velocity), ("angular_velocity", &bed.angular_velocity)];
     for (name, column) in named {
         let shape = [column.len() as u64, 3];
-        let mut writer = archive.array(name, FileOptions::default())?.default_dtype().shape(&shape).begin_nd()?;
+        let mut writer = archive
+            .array(name, FileOptions::default().last_modified_time(DateTime::default()))?
+            .default_dtype()
+            .shape(&shape)
+            .begin_nd()?;
         writer.extend(column.iter().flat_map(|v| [v.x, v.y, v.z]))?;
         writer.finish()?;
     }

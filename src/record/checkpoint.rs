@@ -11,7 +11,7 @@ use std::path::Path;
 
 use npyz::WriterBuilder;
 use npyz::zip::write::FileOptions;
-use npyz::zip::{CompressionMethod, ZipArchive, ZipWriter};
+use npyz::zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 use serde::{Deserialize, Serialize};
 
 use crate::Vector;
@@ -115,7 +115,9 @@ impl Checkpoint {
             arrays: arrays.iter().map(|(name, bytes)| (name.clone(), blake3::hash(bytes).to_string())).collect(),
         };
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-        let options = FileOptions::default().compression_method(CompressionMethod::Stored);
+        let options = FileOptions::default()
+            .last_modified_time(DateTime::default())
+            .compression_method(CompressionMethod::Stored);
         archive.start_file(HEADER, options)?;
         archive.write_all(&serde_json::to_vec_pretty(&header)?)?;
         for (name, bytes) in &arrays {
