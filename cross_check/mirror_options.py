@@ -37,7 +37,7 @@ class TangentialOptions:
 
 @dataclass(frozen=True)
 class RollingOptions:
-    """How a code treats its rolling spring; `limit`: effective_radius | mean_radius | unlimited."""
+    """How a code treats its rolling spring; `limit`: effective_radius | mean_radius | while_pressed | unlimited."""
 
     stiffness: RollingStiffness
     limit: str
@@ -73,13 +73,15 @@ class TwistingOptions:
 class Mirror:
     """Engine options that reproduce another code; the plain engine has a plane without curvature, `synchronized`.
 
-    The others are None where the model has no such law or the plain choice stands: `opposed` of the constant torque
-    (rolling | rolling_share | whole_spin), `dashpot_limit` of an adhesive law (base | pull_off), `hysteresis` rule of
-    luding_hysteretic (self_consistent | old_stiffness | luding_pm).
+    `code` names it: the engine refuses options that it does not have. The others are None where the model has no such
+    law or the plain choice stands: `opposed` of the constant torque (rolling | rolling_share | whole_spin),
+    `dashpot_limit` of an adhesive law (base | pull_off), `hysteresis` rule of luding_hysteretic (self_consistent |
+    old_stiffness | luding_pm).
     """
 
     plane_radius_factor: float | None
     start: str
+    code: str | None = None
     tangential: TangentialOptions | None = None
     rolling: RollingOptions | None = None
     twisting: TwistingOptions | None = None

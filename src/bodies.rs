@@ -1,19 +1,37 @@
-//! Walls: planes that stand still or move as prescribed.
+//! Walls: planes and cylinders that stand still or move as prescribed.
 
 use crate::Vector;
 use crate::case::scene::{SceneBody, SceneMotion, SceneShape};
+use crate::geometry::{self, ContactGeometry};
 
-/// A plane body and its state.
+/// Shape of a body, about its point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BodyShape {
+    /// A plane without end.
+    Plane {
+        /// Unit normal into the region of the particles [-].
+        normal: Vector,
+    },
+    /// The inside of a cylinder without end.
+    Cylinder {
+        /// Unit vector along the axis [-].
+        axis: Vector,
+        /// Radius [m].
+        radius: f64,
+    },
+}
+
+/// A body and its state.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Name.
     pub name: String,
     /// Index of the material.
     pub material: usize,
-    /// A point of the plane [m].
+    /// A point of the plane or of the axis [m].
     pub point: Vector,
-    /// Unit normal into the region of the particles [-].
-    pub normal: Vector,
+    /// Shape about the point.
+    pub shape: BodyShape,
     /// Velocity [m/s].
     pub velocity: Vector,
     /// Force of the particles on the body [N].
@@ -24,17 +42,33 @@ impl Body {
     /// The body at the start of a scene.
     #[must_use]
     pub fn new(scene: &SceneBody) -> Self {
-        let SceneShape::Plane { point, normal } = &scene.shape;
+        let (point, shape) = match &scene.shape {
+            SceneShape::Plane { point, normal } => (*point, BodyShape::Plane { normal: (*normal).into() }),
+            SceneShape::Cylinder { point, axis, radius } => {
+                (*point, BodyShape::Cylinder { axis: (*axis).into(), radius: *radius })
+            }
+        };
         Self {
             name: scene.name.clone(),
             material: scene.material,
-            point: (*point).into(),
-            normal: (*normal).into(),
+            point: point.into(),
+            shape,
             velocity: match &scene.motion {
                 SceneMotion::Fixed => Vector::zeros(),
                 SceneMotion::Prescribed { velocity } => (*velocity).into(),
             },
             force: Vector::zeros(),
+        }
+    }
+
+    /// Contact geometry of a sphere with this body. None where no normal exists: on the axis of a cylinder.
+    #[must_use]
+    pub fn geometry(&self, center: Vector, radius: f64) -> Option<ContactGeometry> {
+        match self.shape {
+            BodyShape::Plane { normal } => Some(geometry::sphere_plane(center, radius, self.point, normal)),
+            BodyShape::Cylinder { axis, radius: bore } => {
+                geometry::sphere_cylinder(center, radius, self.point, axis, bore)
+            }
         }
     }
 

@@ -2,17 +2,22 @@
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
+use crate::bench;
 use crate::case::scene::Scene;
 use crate::case::{self, Loaded};
 use crate::error::Error;
 use crate::record::Recorder;
-use crate::simulation;
+use crate::simulation::{self, Options};
+
+mod job;
+
+use job::Job;
 
 /// Everything went well.
 pub const SUCCESS: u8 = 0;
@@ -44,6 +49,20 @@ enum Command {
         /// Runs one variant only.
         #[arg(long)]
         variant: Option<String>,
+        /// Seconds between two checkpoints.
+        #[arg(long, default_value_t = 60.0)]
+        checkpoint_seconds: f64,
+        /// Steps between two checkpoints, besides the seconds.
+        #[arg(long)]
+        checkpoint_steps: Option<u64>,
+    },
+    /// Goes on with a run that was stopped, from its last checkpoint and to the same bits.
+    Resume {
+        /// Output folder of the run.
+        folder: PathBuf,
+        /// Number of threads, that of the run if not given.
+        #[arg(long)]
+        threads: Option<usize>,
     },
     /// Runs one scene (JSON) and writes its record into a folder.
     RunScene {
@@ -55,6 +74,30 @@ enum Command {
         /// Number of threads.
         #[arg(long, default_value_t = 1)]
         threads: usize,
+    },
+    /// Times the engine on the jammed bed and writes DIR/bench.json.
+    Bench {
+        /// Output folder.
+        #[arg(long, default_value = "out")]
+        out: PathBuf,
+        /// Folder of built beds, the output folder if not given.
+        #[arg(long)]
+        cache: Option<PathBuf>,
+        /// Numbers of threads, one measurement each.
+        #[arg(long, value_delimiter = ',', default_value = "1")]
+        threads: Vec<usize>,
+        /// Number of particles.
+        #[arg(long, default_value_t = 32_000)]
+        particles: usize,
+        /// Seed of the bed.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// Steps of one repeat.
+        #[arg(long, default_value_t = 200)]
+        steps: u64,
+        /// Repeats; the median counts.
+        #[arg(long, default_value_t = 5)]
+        repeats: usize,
     },
     /// Checks a case file without running it.
     Check {
@@ -89,21 +132,50 @@ fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
     let mut say =
         |text: String| writeln!(out, "{text}").map_err(|reason| Error::Write { file: "stdout".into(), reason });
     match command {
-        Command::Run { case, out, threads, set, variant } => {
+        Command::Run { case, out, threads, set, variant, checkpoint_seconds, checkpoint_steps } => {
             let loaded = case::read(case, set)?.load()?;
-            let scenes = selected(&loaded, variant.as_deref())?;
-            let progress = bar(scenes.iter().map(|scene| scene.steps).sum());
-            for scene in &scenes {
-                let folder = if scenes.len() == 1 { out.clone() } else { out.join(&scene.variant) };
-                run_case(scene, *threads, &folder, &progress)?;
-            }
-            progress.finish_and_clear();
-            say(format!("{}: {} scenes in {}", loaded.case.name, scenes.len(), out.display()))
+            let job = Job {
+                name: loaded.case.name.clone(),
+                threads: *threads,
+                checkpoint_seconds: *checkpoint_seconds,
+                checkpoint_steps: *checkpoint_steps,
+                scenes: selected(&loaded, variant.as_deref())?.into_iter().cloned().collect(),
+            };
+            job.begin(out)?;
+            job.run(out)?;
+            say(format!("{}: {} scenes in {}", job.name, job.scenes.len(), out.display()))
+        }
+        Command::Resume { folder, threads } => {
+            let mut job = Job::read(folder)?;
+            job.threads = threads.unwrap_or(job.threads);
+            job.run(folder)?;
+            say(format!("{}: {} scenes in {}", job.name, job.scenes.len(), folder.display()))
         }
         Command::RunScene { scene, out, threads } => {
             let text = std::fs::read_to_string(scene).map_err(|reason| Error::Read { file: scene.clone(), reason })?;
             let scene: Scene = parse_scene(&scene.display().to_string(), &text)?;
-            simulation::run(&scene, *threads, &|_| {})?.write(out)
+            simulation::run(&scene, &Options::threads(*threads), &|_| {})?.write(out)
+        }
+        Command::Bench { out, cache, threads, particles, seed, steps, repeats } => {
+            let progress = bar(0);
+            let bed = bench::cached(cache.as_ref().unwrap_or(out), *particles, *seed, &|step, total| {
+                progress.set_length(total);
+                progress.set_position(step);
+            })?;
+            progress.finish_and_clear();
+            let measured: Result<Vec<_>, _> = threads.iter().map(|n| bench::time(&bed, *n, *steps, *repeats)).collect();
+            let measured = measured?;
+            for one in &measured {
+                let bytes = one.peak_memory_bytes.unwrap_or_default() / one.particles.max(1) as u64;
+                let (wall, cpu) = (one.ns_per_particle_step, one.cpu_ns_per_particle_step.unwrap_or(f64::NAN));
+                let name = format!("{}, {} threads", one.state, one.threads);
+                say(format!("{name}: {wall:.1} ns per particle-step (cpu {cpu:.1}), {bytes} bytes per particle"))?;
+            }
+            let file = out.join("bench.json");
+            let text = serde_json::to_string_pretty(&measured).unwrap_or_default();
+            std::fs::create_dir_all(out)
+                .and_then(|()| std::fs::write(&file, text + "\n"))
+                .map_err(|reason| Error::Write { file, reason })
         }
         Command::Check { case } => {
             let loaded = case::read(case, &[])?.load()?;
@@ -134,7 +206,7 @@ fn selected<'a>(loaded: &'a Loaded, variant: Option<&str>) -> Result<Vec<&'a Sce
     Ok(scenes)
 }
 
-fn bar(steps: u64) -> ProgressBar {
+pub(crate) fn bar(steps: u64) -> ProgressBar {
     if !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
@@ -142,22 +214,8 @@ fn bar(steps: u64) -> ProgressBar {
     ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-fn run_case(scene: &Scene, threads: usize, folder: &Path, progress: &ProgressBar) -> Result<(), Error> {
-    let done = progress.position();
-    let recorder = simulation::run(scene, threads, &|step| {
-        if step.is_multiple_of(1024) {
-            progress.set_position(done + step);
-        }
-    })?;
-    progress.set_position(done + scene.steps);
-    recorder.write(&folder.join("record"))?;
-    let file = folder.join("summary.json");
-    let text = serde_json::to_string_pretty(&summary(scene, &recorder)).unwrap_or_default();
-    std::fs::write(&file, text + "\n").map_err(|reason| Error::Write { file, reason })
-}
-
 /// Observables of a run by name, with value and unit.
-fn summary(scene: &Scene, recorder: &Recorder) -> serde_json::Value {
+pub(crate) fn summary(scene: &Scene, recorder: &Recorder) -> serde_json::Value {
     let last = |name| recorder.last(name).unwrap_or_default();
     let largest = |name| recorder.values(name).iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
     let balance = |sample: usize| {

@@ -1,108 +1,303 @@
-//! The contact store: candidate pairs, what their contacts remember, and what they did in the last sweep.
-
-use std::collections::BTreeMap;
+//! The contact store: candidate pairs in blocks, what their contacts remember, and what they do to particles of other
+//! blocks.
+//!
+//! A block owns [`BLOCK`] particles that stand together in memory, and every pair whose first particle (in memory) it
+//! owns. One task sweeps over a block and adds to the loads of its own particles; what its pairs do to particles of later
+//! blocks it writes into its exports, which those particles fetch in a fixed order. Blocks depend on positions only, so
+//! that the order of every sum is the same for every number of threads.
 
 use crate::Vector;
+use crate::domain::Domain;
+use crate::laws::Losses;
+use crate::laws::memory::Memory;
+use crate::neighbors::Near;
+use crate::particles::{Load, Particles};
 
-/// The other side of a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Partner {
-    /// A particle with a larger index.
-    Particle(u32),
-    /// A body.
-    Body(u32),
-}
+/// Particles of a block.
+pub const BLOCK: usize = 2048;
+/// Largest number of particles: the image of a pair takes the other bits.
+pub const MOST: usize = 1 << INDEX_BITS;
+/// The bits of an index.
+const INDEX_MASK: u32 = (1 << INDEX_BITS) - 1;
+const INDEX_BITS: u32 = 27;
 
-/// One candidate pair: it writes only here during a sweep.
+/// A candidate pair: the particle with the smaller id comes first, whatever their places, so that a contact keeps its
+/// sense when places change.
 #[derive(Clone, Copy, Debug)]
-pub struct Slot<H> {
-    /// First particle.
-    pub i: u32,
-    /// Its partner.
-    pub partner: Partner,
-    /// Whether the contact lives.
-    pub alive: bool,
-    /// What the law remembers.
-    pub history: H,
-    /// What the last sweep found.
-    pub state: SlotState,
+pub struct Pair {
+    first: u32,
+    second: u32,
 }
 
-/// Forces of a contact and its entries in the energy ledger.
+impl Pair {
+    fn new(first: u32, second: u32, image: u32) -> Self {
+        Self { first, second: second | image << INDEX_BITS }
+    }
+
+    /// Place in memory of the first particle.
+    #[inline]
+    #[must_use]
+    pub fn i(self) -> usize {
+        self.first as usize
+    }
+
+    /// Place in memory of the second particle.
+    #[inline]
+    #[must_use]
+    pub fn j(self) -> usize {
+        (self.second & INDEX_MASK) as usize
+    }
+
+    /// The image in which the pair meets.
+    #[inline]
+    #[must_use]
+    pub fn image(self) -> usize {
+        (self.second >> INDEX_BITS) as usize
+    }
+
+    /// Both places, the smaller first.
+    #[must_use]
+    pub fn places(self) -> [u32; 2] {
+        let (i, j) = (self.first, self.second & INDEX_MASK);
+        [i.min(j), i.max(j)]
+    }
+}
+
+/// Entries of a contact in the energy ledger.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct SlotState {
-    /// Force on i [N].
+pub struct Account {
+    /// Force on i at the last step [N].
     pub force: Vector,
-    /// Torque on i [N m].
-    pub torque_i: Vector,
-    /// Torque on j [N m].
-    pub torque_j: Vector,
     /// Total normal force, positive when it repels [N].
     pub normal_force: f64,
     /// Part of the normal force that is not stored [N].
     pub damping_force: f64,
     /// Stored energy [J].
     pub energy: f64,
-    /// Energy dissipated in the last step [J].
+    /// Its part in the contact plane and in moments [J].
+    pub springs: f64,
+}
+
+impl Memory for Account {
+    const WIDTH: usize = 7;
+
+    fn save(&self, into: &mut Vec<f64>) {
+        self.force.save(into);
+        into.extend([self.normal_force, self.damping_force, self.energy, self.springs]);
+    }
+
+    fn restore(values: &mut impl Iterator<Item = f64>) -> Self {
+        let (force, (normal_force, damping_force)) = <(Vector, (f64, f64))>::restore(values);
+        let (energy, springs) = <(f64, f64)>::restore(values);
+        Self { force, normal_force, damping_force, energy, springs }
+    }
+}
+
+/// Slots of one kind: candidates and, parallel to them, what their contacts remember.
+#[derive(Clone, Debug)]
+pub struct Slots<C, H> {
+    /// Candidates.
+    pub candidates: Vec<C>,
+    /// Memory of each contact.
+    pub history: Vec<H>,
+    /// Whether each contact lives.
+    pub alive: Vec<bool>,
+    /// Ledger entries; empty where no ledger is kept.
+    pub accounts: Vec<Account>,
+}
+
+impl<C, H: Memory> Slots<C, H> {
+    fn new(candidates: Vec<C>, ledger: bool) -> Self {
+        let count = candidates.len();
+        Self {
+            candidates,
+            history: vec![H::default(); count],
+            alive: vec![false; count],
+            accounts: vec![Account::default(); if ledger { count } else { 0 }],
+        }
+    }
+
+    fn copy(&mut self, to: usize, other: &Self, from: usize) {
+        self.history[to] = other.history[from];
+        self.alive[to] = other.alive[from];
+        if let (Some(into), Some(account)) = (self.accounts.get_mut(to), other.accounts.get(from)) {
+            *into = *account;
+        }
+    }
+}
+
+/// The pairs of one block and its particles at bodies.
+#[derive(Clone, Debug)]
+pub struct Block<H> {
+    /// Place in memory of its first particle.
+    pub first: usize,
+    /// Pairs: those inside the block, then those with a particle of a later block.
+    pub pairs: Slots<Pair, H>,
+    /// Number of pairs inside the block.
+    pub inside: usize,
+    /// Particles at bodies.
+    pub near: Slots<Near, H>,
+    /// Forces of bodies on the particles, parallel to `near` [N].
+    pub body_forces: Vec<Vector>,
+    /// Loads on the particles of later blocks, parallel to the pairs with them.
+    pub exports: Vec<Load>,
+    /// Energies of the last sweep.
+    pub flow: Flow,
+    /// Candidates that may touch, for one sweep.
+    pub active: Vec<u32>,
+}
+
+/// What entered and left the contacts of a block in the last step [J].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Flow {
+    /// Energy dissipated by dashpots along the normal.
     pub dissipated: f64,
-    /// Energy that entered the contact in the last step [J].
+    /// Losses of springs and of plastic flow.
+    pub losses: Losses,
+    /// Energy that entered contacts.
     pub entered: f64,
-    /// Work of the partner, if it is a moving body, in the last step [J].
+    /// Work of moving bodies on the particles.
     pub body_work: f64,
 }
 
-/// All candidate pairs and, for each particle, the slots that act on it.
+/// All blocks, and for each particle the exports that act on it.
 #[derive(Clone, Debug, Default)]
 pub struct Contacts<H> {
-    /// Slots in the order of (i, partner).
-    pub slots: Vec<Slot<H>>,
-    /// Start of each particle's entries in `entries`, and one end.
-    starts: Vec<usize>,
-    /// Slot index and whether the particle is the first of the slot.
-    entries: Vec<(usize, bool)>,
+    /// Blocks in the order of memory.
+    pub blocks: Vec<Block<H>>,
+    /// Start of each particle's entries in `imports`, and one end.
+    starts: Vec<u32>,
+    /// Block and export.
+    imports: Vec<[u32; 2]>,
 }
 
-impl<H: Copy + Default> Contacts<H> {
-    /// Takes a new candidate list; contacts that live keep their slot's memory.
-    pub fn replace(&mut self, pairs: &[(u32, Partner)], particles: usize) {
-        let kept: BTreeMap<(u32, Partner), Slot<H>> =
-            self.slots.iter().filter(|slot| slot.alive).map(|slot| ((slot.i, slot.partner), *slot)).collect();
-        let fresh = |i, partner| Slot { i, partner, alive: false, history: H::default(), state: SlotState::default() };
-        self.slots = pairs
-            .iter()
-            .map(|(i, partner)| kept.get(&(*i, *partner)).copied().unwrap_or_else(|| fresh(*i, *partner)))
-            .collect();
-        let mut lists = vec![Vec::new(); particles];
-        for (index, slot) in self.slots.iter().enumerate() {
-            lists[slot.i as usize].push((index, true));
-            if let Partner::Particle(j) = slot.partner {
-                lists[j as usize].push((index, false));
-            }
+impl<H: Memory> Contacts<H> {
+    /// Blocks for `pairs` and `near`, both in order; no contact lives yet.
+    #[must_use]
+    pub fn new(particles: &Particles, domain: &Domain, pairs: &[[u32; 2]], near: &[Near], ledger: bool) -> Self {
+        let count = particles.len();
+        let (mut pairs, mut near) = (pairs, near);
+        let mut blocks = Vec::with_capacity(count.div_ceil(BLOCK));
+        for first in (0..count).step_by(BLOCK) {
+            let end = (first + BLOCK).min(count);
+            let (own, rest) = pairs.split_at(pairs.partition_point(|pair| (pair[0] as usize) < end));
+            let (touching, later) = near.split_at(near.partition_point(|near| (near.particle as usize) < end));
+            (pairs, near) = (rest, later);
+            blocks.push(block(particles, domain, first..end, own, touching, ledger));
         }
-        self.starts = std::iter::once(0)
-            .chain(lists.iter().scan(0, |end, list| {
-                *end += list.len();
-                Some(*end)
-            }))
-            .collect();
-        self.entries = lists.concat();
+        let (starts, imports) = imports(&blocks, count);
+        Self { blocks, starts, imports }
     }
 
-    /// Force [N] and torque [N m] on a particle, summed in the order of its slots.
-    #[must_use]
-    pub fn gather(&self, particle: usize) -> (Vector, Vector) {
-        let mut force = Vector::zeros();
-        let mut torque = Vector::zeros();
-        for (slot, first) in &self.entries[self.starts[particle]..self.starts[particle + 1]] {
-            let state = &self.slots[*slot].state;
-            if *first {
-                force += state.force;
-                torque += state.torque_i;
-            } else {
-                force -= state.force;
-                torque += state.torque_j;
+    /// Exports that act on a particle, in the order of the blocks that made them.
+    pub fn imports(&self, particle: usize) -> impl Iterator<Item = &Load> {
+        let range = self.starts[particle] as usize..self.starts[particle + 1] as usize;
+        self.imports[range].iter().map(|[block, export]| &self.blocks[*block as usize].exports[*export as usize])
+    }
+
+    /// Takes over what the living contacts of an older store remember; `order` is the place that each particle had.
+    pub fn carry(&mut self, old: &Self, order: &[u32]) {
+        let rows: Vec<[Vec<u32>; 2]> = old.blocks.iter().map(rows).collect();
+        for block in &mut self.blocks {
+            for slot in 0..block.pairs.candidates.len() {
+                let [one, other] = block.pairs.candidates[slot].places().map(|place| order[place as usize]);
+                let [low, high] = [one.min(other), one.max(other)];
+                let owner = low as usize / BLOCK;
+                let from = &old.blocks[owner];
+                let row = &rows[owner][usize::from(high as usize / BLOCK != owner)];
+                let range = row[low as usize - from.first] as usize..row[low as usize - from.first + 1] as usize;
+                let places = |pair: &Pair| pair.places() == [low, high];
+                if let Some(found) = from.pairs.candidates[range.clone()].iter().position(places) {
+                    block.pairs.copy(slot, &from.pairs, range.start + found);
+                }
+            }
+            for slot in 0..block.near.candidates.len() {
+                let Near { particle, body } = block.near.candidates[slot];
+                let was = Near { particle: order[particle as usize], body };
+                let from = &old.blocks[was.particle as usize / BLOCK].near;
+                let key = |near: &Near| (near.particle, near.body);
+                if let Ok(found) = from.candidates.binary_search_by_key(&key(&was), key) {
+                    block.near.copy(slot, from, found);
+                }
             }
         }
-        (force, torque)
     }
+
+    /// Number of living contacts, pairs and bodies.
+    #[must_use]
+    pub fn living(&self) -> usize {
+        let count = |alive: &[bool]| alive.iter().filter(|alive| **alive).count();
+        self.blocks.iter().map(|block| count(&block.pairs.alive) + count(&block.near.alive)).sum()
+    }
+}
+
+fn block<H: Memory>(
+    particles: &Particles,
+    domain: &Domain,
+    range: std::ops::Range<usize>,
+    pairs: &[[u32; 2]],
+    near: &[Near],
+    ledger: bool,
+) -> Block<H> {
+    let within = |pair: &&[u32; 2]| (pair[1] as usize) < range.end;
+    let inside = pairs.iter().filter(within).count();
+    let place = |at: u32| particles.place[at as usize].position;
+    let id = |at: u32| particles.motion[at as usize].id;
+    let oriented = |pair: &[u32; 2]| {
+        let [i, j] = if id(pair[0]) < id(pair[1]) { *pair } else { [pair[1], pair[0]] };
+        Pair::new(i, j, domain.image(place(i) - place(j)))
+    };
+    let border = pairs.iter().filter(|pair| !within(pair));
+    let candidates: Vec<Pair> = pairs.iter().filter(within).chain(border).map(oriented).collect();
+    Block {
+        first: range.start,
+        exports: vec![Load::default(); candidates.len() - inside],
+        active: Vec::with_capacity(candidates.len()),
+        pairs: Slots::new(candidates, ledger),
+        inside,
+        body_forces: vec![Vector::zeros(); near.len()],
+        near: Slots::new(near.to_vec(), ledger),
+        flow: Flow::default(),
+    }
+}
+
+/// Starts of the pairs of each particle of a block, inside and with later blocks.
+fn rows<H>(block: &Block<H>) -> [Vec<u32>; 2] {
+    let (inside, border) = block.pairs.candidates.split_at(block.inside);
+    [(inside, 0), (border, block.inside)].map(|(pairs, base)| {
+        let mut starts = vec![0u32; BLOCK + 1];
+        for pair in pairs {
+            starts[pair.places()[0] as usize - block.first + 1] += 1;
+        }
+        starts[0] = u32::try_from(base).unwrap_or(u32::MAX);
+        for at in 0..BLOCK {
+            starts[at + 1] += starts[at];
+        }
+        starts
+    })
+}
+
+fn imports<H>(blocks: &[Block<H>], particles: usize) -> (Vec<u32>, Vec<[u32; 2]>) {
+    let exported = |block: &Block<H>| {
+        let border = block.pairs.candidates[block.inside..].iter();
+        border.map(|pair| pair.places()[1] as usize).collect::<Vec<_>>()
+    };
+    let mut starts = vec![0u32; particles + 1];
+    for block in blocks {
+        for particle in exported(block) {
+            starts[particle + 1] += 1;
+        }
+    }
+    for at in 0..particles {
+        starts[at + 1] += starts[at];
+    }
+    let mut next = starts.clone();
+    let mut imports = vec![[0; 2]; starts.last().copied().unwrap_or(0) as usize];
+    for (block, index) in blocks.iter().zip(0u32..) {
+        for (particle, export) in exported(block).into_iter().zip(0u32..) {
+            imports[next[particle] as usize] = [index, export];
+            next[particle] += 1;
+        }
+    }
+    (starts, imports)
 }

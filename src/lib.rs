@@ -17,28 +17,30 @@
 //! |---|---|
 //! | [`case`] | the case file (the schema) and its expansion into scenes |
 //! | [`material`] | materials and the only place of mixing rules |
-//! | [`particles`], [`bodies`] | what moves: particle columns, walls |
+//! | [`particles`], [`bodies`], [`domain`] | what moves: particles, walls; the box |
 //! | [`geometry`], [`laws`] | contact geometry and contact laws |
 //! | [`neighbors`], [`contacts`] | who may touch, and what contacts remember |
-//! | [`integrate`], [`simulation`] | one step |
+//! | [`simulation`] | one step: motion, sweep over contacts |
 //! | [`observables`], [`record`] | what is measured and how it is written |
+//! | [`bench`] | speed on states built from a seed |
 //! | [`cli`] | the command `crossgrain` |
 //!
 //! # Determinism
 //!
-//! A run has the same bits for every number of threads: contacts write their own slots, particles gather them in a
-//! fixed order, and no floating-point sum depends on scheduling.
+//! A run has the same bits for every number of threads and every order of its input: particles are ordered by their
+//! positions, blocks of them are swept one task each, and no floating-point sum depends on scheduling.
 
 /// A vector in three dimensions.
 pub type Vector = nalgebra::Vector3<f64>;
 
+pub mod bench;
 pub mod bodies;
 pub mod case;
 pub mod cli;
 pub mod contacts;
+pub mod domain;
 pub mod error;
 pub mod geometry;
-pub mod integrate;
 pub mod laws;
 pub mod material;
 pub mod neighbors;

@@ -1,60 +1,114 @@
 //! Who may touch: a list of candidate pairs that stays valid while nothing has moved further than half its skin.
 //!
-//! The list is rebuilt from all pairs, which suits the few bodies of collisions. Its order (i, then partner) is part
-//! of the determinism of a run.
+//! Particles are ordered along a Morton curve whenever the list is built, and searched through cells in levels: each
+//! level has cells of twice the size of the one below, a particle lives on the level that its radius fills, and searches
+//! its own level and the coarser ones. Small particles therefore never meet crowds of each other in the cells of large
+//! ones.
+
+mod cells;
+mod morton;
+
+use rayon::prelude::*;
 
 use crate::Vector;
 use crate::bodies::Body;
-use crate::contacts::Partner;
-use crate::geometry;
+use crate::domain::Domain;
 use crate::particles::Particles;
+use cells::Cells;
 
-/// Candidate pairs and the state for which they were found.
+/// Particles that one task searches for: fixed, so that nothing depends on the number of threads.
+const CHUNK: u32 = 512;
+
+/// A particle and the body that it may touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Near {
+    /// The particle, as its place in memory.
+    pub particle: u32,
+    /// The body.
+    pub body: u32,
+}
+
+/// The search and the state for which the list was built.
 #[derive(Clone, Debug)]
 pub struct Neighbors {
-    skin: f64,
-    positions: Vec<Vector>,
-    planes: Vec<Vector>,
+    /// Gap beyond the reach of the law up to which a pair is a candidate [m].
+    pub skin: f64,
+    /// Largest gap across which the law acts [m].
+    pub reach: f64,
+    /// Centres at the last build, in the order of memory [m].
+    pub built: Vec<Vector>,
+    /// Points of the bodies at the last build [m].
+    pub built_bodies: Vec<Vector>,
 }
 
 impl Neighbors {
-    /// An empty list whose skin is a quarter of the smallest radius [m], plus the `reach` of the law [m].
+    /// No list yet.
     #[must_use]
-    pub fn new(particles: &Particles, reach: f64) -> Self {
-        let smallest = particles.radius.iter().copied().fold(f64::INFINITY, f64::min);
-        let skin = if smallest.is_finite() { 0.25 * smallest } else { 0.0 };
-        Self { skin: skin + reach, positions: Vec::new(), planes: Vec::new() }
+    pub fn new(skin: f64, reach: f64) -> Self {
+        Self { skin, reach, built: Vec::new(), built_bodies: Vec::new() }
     }
 
-    /// Whether something moved so far that a pair may be missing.
+    /// Square of the displacement that makes the list stale [m2].
     #[must_use]
-    pub fn stale(&self, particles: &Particles, bodies: &[Body], reach: f64) -> bool {
-        let allowance = 0.5 * (self.skin - reach);
-        let far = |now: &Vector, then: &Vector| (now - then).norm_squared() >= allowance * allowance;
-        self.positions.len() != particles.len()
-            || particles.position.iter().zip(&self.positions).any(|(now, then)| far(now, then))
-            || bodies.iter().zip(&self.planes).any(|(body, then)| far(&body.point, then))
+    pub fn allowance(&self) -> f64 {
+        0.25 * self.skin * self.skin
     }
 
-    /// All pairs within the skin, in the order of (i, partner).
-    pub fn rebuild(&mut self, particles: &Particles, bodies: &[Body]) -> Vec<(u32, Partner)> {
-        self.positions.clone_from(&particles.position);
-        self.planes = bodies.iter().map(|body| body.point).collect();
-        let mut pairs = Vec::new();
-        for (i, index) in (0..particles.len()).zip(0u32..) {
-            let (center, radius) = (particles.position[i], particles.radius[i]);
-            for (j, other) in (i + 1..particles.len()).zip(index + 1..) {
-                let distance = (center - particles.position[j]).norm();
-                if distance < radius + particles.radius[j] + self.skin {
-                    pairs.push((index, Partner::Particle(other)));
-                }
-            }
-            for (body, other) in bodies.iter().zip(0u32..) {
-                if geometry::sphere_plane(center, radius, body.point, body.normal).overlap > -self.skin {
-                    pairs.push((index, Partner::Body(other)));
-                }
+    /// Largest squared displacement of a body since the list was built [m2].
+    #[must_use]
+    pub fn body_displacement(&self, bodies: &[Body]) -> f64 {
+        let squares = bodies.iter().zip(&self.built_bodies).map(|(body, then)| (body.point - then).norm_squared());
+        squares.fold(0.0, f64::max)
+    }
+
+    /// Moves particles back into the box, orders them along the curve and returns the places that they had before.
+    pub fn order(&mut self, particles: &mut Particles, domain: &Domain) -> Vec<u32> {
+        for place in &mut particles.place {
+            place.position = domain.wrap(place.position);
+        }
+        let grid = morton::Grid::new(particles, domain, self.skin + self.reach);
+        let order = grid.order(particles);
+        particles.reorder(&order);
+        order
+    }
+
+    /// All pairs (smaller place in memory first) and particles at bodies within the skin, in order.
+    pub fn search(&mut self, particles: &Particles, bodies: &[Body], domain: &Domain) -> (Vec<[u32; 2]>, Vec<Near>) {
+        self.built = particles.place.iter().map(|place| place.position).collect();
+        self.built_bodies = bodies.iter().map(|body| body.point).collect();
+        let gap = self.skin + self.reach;
+        let cells = Cells::new(particles, domain, gap);
+        let count = u32::try_from(particles.len()).unwrap_or(u32::MAX);
+        let starts: Vec<u32> = (0..count).step_by(CHUNK as usize).collect();
+        let found: Vec<(Vec<[u32; 2]>, Vec<Near>)> = starts
+            .par_iter()
+            .map(|start| {
+                let range = *start..count.min(start + CHUNK);
+                (cells.pairs(range.clone()), near_bodies(particles, bodies, gap, range))
+            })
+            .collect();
+        let near = found.iter().flat_map(|(_, near)| near.iter().copied()).collect();
+        let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(found.iter().map(|(pairs, _)| pairs.len()).sum());
+        for (chunk, _) in found {
+            pairs.extend(chunk);
+        }
+        if cells.levels() > 1 {
+            // A small particle finds a large one from its own side: the pair may belong to an earlier chunk.
+            pairs.par_sort_unstable();
+        }
+        (pairs, near)
+    }
+}
+
+fn near_bodies(particles: &Particles, bodies: &[Body], gap: f64, range: std::ops::Range<u32>) -> Vec<Near> {
+    let mut near = Vec::new();
+    for particle in range {
+        let place = &particles.place[particle as usize];
+        for (body, index) in bodies.iter().zip(0u32..) {
+            if body.geometry(place.position, place.radius).is_some_and(|geometry| geometry.overlap > -gap) {
+                near.push(Near { particle, body: index });
             }
         }
-        pairs
     }
+    near
 }

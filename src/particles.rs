@@ -1,59 +1,132 @@
-//! Particle columns.
+//! Particles: packed records for the sweeps over contacts, in the order of a space-filling curve.
+//!
+//! A particle is known by its id, its place in the scene. The order in memory changes at every rebuild of the neighbour
+//! list and depends on positions only, so that no result depends on the order of the input.
 
 use crate::Vector;
-use crate::case::scene::Scene;
+use crate::case::scene::SceneParticle;
 
-/// Particles as columns, one entry each per particle.
+/// What the search for contacts reads.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub struct Place {
+    /// Centre [m].
+    pub position: Vector,
+    /// Radius [m].
+    pub radius: f64,
+}
+
+/// What a contact reads besides: one cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Motion {
+    /// Velocity [m/s].
+    pub velocity: Vector,
+    /// Angular velocity [rad/s].
+    pub angular_velocity: Vector,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Index of the material.
+    pub material: u32,
+    /// Place of the particle in the scene.
+    pub id: u32,
+}
+
+/// What contacts do to a particle.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub struct Load {
+    /// Sum of contact forces, weight excluded [N].
+    pub force: Vector,
+    /// Sum of contact torques [N m].
+    pub torque: Vector,
+}
+
+/// All particles, in the order of memory.
 #[derive(Clone, Debug, Default)]
 pub struct Particles {
-    /// Index of the material.
-    pub material: Vec<usize>,
-    /// Radius [m].
-    pub radius: Vec<f64>,
-    /// Mass [kg].
-    pub mass: Vec<f64>,
-    /// Moment of inertia [kg m2].
+    /// Places.
+    pub place: Vec<Place>,
+    /// Motions.
+    pub motion: Vec<Motion>,
+    /// Loads.
+    pub load: Vec<Load>,
+    /// Moments of inertia [kg m2].
     pub moment_of_inertia: Vec<f64>,
-    /// Centre [m].
-    pub position: Vec<Vector>,
-    /// Velocity [m/s].
-    pub velocity: Vec<Vector>,
-    /// Angular velocity [rad/s].
-    pub angular_velocity: Vec<Vector>,
-    /// Sum of contact forces, weight excluded [N].
-    pub force: Vec<Vector>,
-    /// Sum of contact torques [N m].
-    pub torque: Vec<Vector>,
+    /// Place in memory of each id.
+    index: Vec<u32>,
 }
 
 impl Particles {
-    /// The particles of a scene at its start.
+    /// Particles at their start, in the order of their ids.
     #[must_use]
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(particles: &[SceneParticle]) -> Self {
         let mut columns = Self::default();
-        for particle in &scene.particles {
-            columns.material.push(particle.material);
-            columns.radius.push(particle.radius);
-            columns.mass.push(particle.mass);
+        for (id, particle) in (0..).zip(particles) {
+            columns.place.push(Place { position: particle.position.into(), radius: particle.radius });
+            columns.motion.push(Motion {
+                velocity: particle.velocity.into(),
+                angular_velocity: particle.angular_velocity.into(),
+                mass: particle.mass,
+                material: u32::try_from(particle.material).unwrap_or(u32::MAX),
+                id,
+            });
             columns.moment_of_inertia.push(particle.moment_of_inertia);
-            columns.position.push(particle.position.into());
-            columns.velocity.push(particle.velocity.into());
-            columns.angular_velocity.push(particle.angular_velocity.into());
+            columns.index.push(id);
         }
-        columns.force = vec![Vector::zeros(); columns.mass.len()];
-        columns.torque = vec![Vector::zeros(); columns.mass.len()];
+        columns.load = vec![Load::default(); particles.len()];
         columns
     }
 
     /// Number of particles.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.mass.len()
+        self.place.len()
     }
 
     /// Whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.mass.is_empty()
+        self.place.is_empty()
+    }
+
+    /// Place in memory of each id.
+    #[must_use]
+    pub fn index(&self) -> &[u32] {
+        &self.index
+    }
+
+    /// Puts the particle at place `order[k]` to place k.
+    pub fn reorder(&mut self, order: &[u32]) {
+        fn take<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
+            *column = order.iter().map(|old| column[*old as usize]).collect();
+        }
+        take(&mut self.place, order);
+        take(&mut self.motion, order);
+        take(&mut self.load, order);
+        take(&mut self.moment_of_inertia, order);
+        for (place, motion) in (0..).zip(&self.motion) {
+            self.index[motion.id as usize] = place;
+        }
+    }
+
+    /// Centres by id [m].
+    pub fn positions(&self) -> impl Iterator<Item = Vector> {
+        self.index.iter().map(|at| self.place[*at as usize].position)
+    }
+
+    /// Velocities by id [m/s].
+    pub fn velocities(&self) -> impl Iterator<Item = Vector> {
+        self.index.iter().map(|at| self.motion[*at as usize].velocity)
+    }
+
+    /// Angular velocities by id [rad/s].
+    pub fn angular_velocities(&self) -> impl Iterator<Item = Vector> {
+        self.index.iter().map(|at| self.motion[*at as usize].angular_velocity)
+    }
+
+    /// Loads by id.
+    pub fn loads(&self) -> impl Iterator<Item = Load> {
+        self.index.iter().map(|at| self.load[*at as usize])
     }
 }

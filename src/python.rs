@@ -48,7 +48,8 @@ mod module {
     #[pyo3(signature = (scene, out, threads = 1))]
     fn run_scene(py: Python<'_>, scene: &str, out: PathBuf, threads: usize) -> PyResult<()> {
         let scene = cli::parse_scene("scene", scene).map_err(raise)?;
-        py.detach(|| simulation::run(&scene, threads, &|_| {})?.write(&out)).map_err(raise)
+        py.detach(|| simulation::run(&scene, &simulation::Options::threads(threads), &|_| {})?.write(&out))
+            .map_err(raise)
     }
 
     /// Runs the command line `crossgrain ARGUMENTS` and returns its exit code.

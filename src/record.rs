@@ -1,5 +1,7 @@
 //! Run records: `record.json` and `columns.npz` (docs/formats.md).
 
+pub mod checkpoint;
+
 use std::fs::{self, File};
 use std::io::BufWriter;
 use std::path::Path;
@@ -7,6 +9,7 @@ use std::time::Instant;
 
 use npyz::WriterBuilder;
 use npyz::npz::NpzWriter;
+use npyz::zip::DateTime;
 use npyz::zip::write::FileOptions;
 use serde_json::json;
 
@@ -16,6 +19,7 @@ use crate::case::scene::{Scene, Start};
 use crate::error::Error;
 use crate::observables::energy::Ledger;
 use crate::particles::Particles;
+use checkpoint::Checkpoint;
 
 /// The version of the record format.
 pub const SCHEMA: u32 = 1;
@@ -71,16 +75,17 @@ impl Recorder {
 
     /// Adds a sample.
     pub fn sample(&mut self, step: u64, particles: &Particles, bodies: &[Body], ledger: &Ledger) {
-        let flat = |vectors: &[Vector]| vectors.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<f64>>();
-        let forces: Vec<Vector> = bodies.iter().map(|body| body.force).collect();
+        fn flat(vectors: impl Iterator<Item = Vector>) -> Vec<f64> {
+            vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
+        }
         let rows = [
             vec![step as f64 * self.time_step],
-            flat(&particles.position),
-            flat(&particles.velocity),
-            flat(&particles.angular_velocity),
-            flat(&particles.force),
-            flat(&particles.torque),
-            flat(&forces),
+            flat(particles.positions()),
+            flat(particles.velocities()),
+            flat(particles.angular_velocities()),
+            flat(particles.loads().map(|load| load.force)),
+            flat(particles.loads().map(|load| load.torque)),
+            flat(bodies.iter().map(|body| body.force)),
             vec![ledger.kinetic],
             vec![ledger.elastic],
             vec![ledger.gravity],
@@ -91,6 +96,23 @@ impl Recorder {
         self.steps.push(i64::try_from(step).unwrap_or(i64::MAX));
         for (column, row) in self.columns.iter_mut().zip(rows) {
             column.values.extend(row);
+        }
+    }
+
+    /// Adds the samples so far to a checkpoint.
+    pub fn save(&self, into: &mut Checkpoint) {
+        into.put_counts("record_step", self.steps.iter().map(|step| step.unsigned_abs()).collect());
+        for column in &self.columns {
+            into.put(&format!("record_{}", column.name), column.values.clone());
+        }
+    }
+
+    /// Takes the samples of a checkpoint.
+    pub fn restore(&mut self, from: &Checkpoint) {
+        let steps = from.get_counts("record_step").iter();
+        self.steps = steps.map(|step| i64::try_from(*step).unwrap_or(i64::MAX)).collect();
+        for column in &mut self.columns {
+            column.values = from.get(&format!("record_{}", column.name)).to_vec();
         }
     }
 
@@ -111,13 +133,20 @@ impl Recorder {
     fn write_columns(&self, path: &Path) -> std::io::Result<()> {
         let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
         let samples = self.steps.len() as u64;
-        let mut steps = archive.array("step", FileOptions::default())?.default_dtype().shape(&[samples]).begin_nd()?;
+        let mut steps = archive
+            .array("step", FileOptions::default().last_modified_time(DateTime::default()))?
+            .default_dtype()
+            .shape(&[samples])
+            .begin_nd()?;
         steps.extend(self.steps.iter().copied())?;
         steps.finish()?;
         for column in &self.columns {
             let shape: Vec<u64> = std::iter::once(samples).chain(column.shape.iter().copied()).collect();
-            let mut writer =
-                archive.array(column.name, FileOptions::default())?.default_dtype().shape(&shape).begin_nd()?;
+            let mut writer = archive
+                .array(column.name, FileOptions::default().last_modified_time(DateTime::default()))?
+                .default_dtype()
+                .shape(&shape)
+                .begin_nd()?;
             writer.extend(column.values.iter().copied())?;
             writer.finish()?;
         }

@@ -1,251 +1,314 @@
-//! One step is the passes in order, nothing else.
+//! One step is the passes in order, nothing else: move the particles, rebuild the neighbour list if it is stale, sweep
+//! over the contacts, gather.
 
-use rayon::prelude::*;
+mod motion;
+pub mod run;
+mod state;
+mod sweep;
 
 use crate::Vector;
 use crate::bodies::Body;
-use crate::case::model::{ForceCut, MomentLaw, NormalLaw, TangentialLaw};
-use crate::case::scene::{Scene, Start};
-use crate::contacts::{Contacts, Partner, Slot, SlotState};
+use crate::case::scene::{Scene, SceneParticle, Start};
+use crate::contacts::{self, Contacts};
+use crate::domain::Domain;
 use crate::error::Error;
-use crate::geometry;
-use crate::integrate;
-use crate::laws::model::{Composed, ContactModel, Free, Frictionless};
-use crate::laws::normal::hertz::Hertz;
-use crate::laws::{Contact, PairLaw};
-use crate::material::{self, PairProperties};
+use crate::laws::model::ContactModel;
+use crate::material::PairProperties;
 use crate::neighbors::Neighbors;
-use crate::observables::energy::{self, Ledger, Synchronized};
+use crate::observables::energy::Ledger;
 use crate::particles::Particles;
-use crate::record::Recorder;
 
-/// Contacts or particles that one task takes: fixed, so that nothing depends on the number of threads.
-const CHUNK: usize = 256;
+pub use run::{Checkpoints, Options, run};
 
-/// Runs a scene on `threads` threads; `progress` hears the number of finished steps.
-///
-/// # Errors
-/// The scene is not valid, names a law that this build does not have, or its run diverges.
-pub fn run(scene: &Scene, threads: usize, progress: &(dyn Fn(u64) + Sync)) -> Result<Recorder, Error> {
-    scene.check()?;
-    let model = &scene.model;
-    if !matches!((&model.tangential, &model.moments), (TangentialLaw::Frictionless {}, MomentLaw::Free {})) {
-        let reason = format!("this version has no law {:?} with {:?}", model.tangential, model.moments);
-        return Err(Error::Scene { scene: scene.name(), reason });
-    }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| Error::Scene { scene: scene.name(), reason: error.to_string() })?;
-    pool.install(|| match &scene.model.normal {
-        NormalLaw::Hertz { force_cut } => {
-            let normal = Hertz { force_cut: ForceCut::cuts(*force_cut) };
-            Simulation::new(scene, Composed { normal, tangential: Frictionless, moments: Free }).run(progress)
+/// Skin of the neighbour list, as a share of the smallest radius.
+const SKIN: f64 = 0.25;
+
+/// Everything that a simulation starts from.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// Name in messages.
+    pub name: String,
+    /// The box.
+    pub domain: Domain,
+    /// Acceleration on every particle [m/s2].
+    pub gravity: Vector,
+    /// Time step [s].
+    pub time_step: f64,
+    /// Number of materials.
+    pub materials: usize,
+    /// Values of the pairs of materials that can touch.
+    pub pairs: Vec<PairProperties>,
+    /// Particles; their place here is their id.
+    pub particles: Vec<SceneParticle>,
+    /// Walls.
+    pub bodies: Vec<Body>,
+    /// A plane acts like a sphere whose radius is this multiple of the particle's.
+    pub plane_radius_factor: Option<f64>,
+    /// Where velocities start.
+    pub start: Start,
+    /// Whether an energy ledger is kept; trajectories do not depend on it.
+    pub ledger: bool,
+    /// Skin of the neighbour list [m], a quarter of the smallest radius if not given.
+    pub skin: Option<f64>,
+}
+
+impl Setup {
+    /// What a scene starts from.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        Self {
+            name: scene.name(),
+            domain: Domain::new(&scene.domain),
+            gravity: scene.gravity.into(),
+            time_step: scene.time_step,
+            materials: scene.materials.len(),
+            pairs: scene.pairs.clone(),
+            particles: scene.particles.clone(),
+            bodies: scene.bodies.iter().map(Body::new).collect(),
+            plane_radius_factor: scene.mirror.plane_radius_factor,
+            start: scene.mirror.start,
+            ledger: true,
+            skin: None,
         }
-        other => Err(Error::Scene { scene: scene.name(), reason: format!("this version has no law {other:?}") }),
-    })
+    }
+
+    fn refuse(&self, reason: String) -> Error {
+        Error::Scene { scene: self.name.clone(), reason }
+    }
+
+    fn table(&self) -> Result<Vec<Option<PairProperties>>, Error> {
+        let count = self.materials;
+        let mut table = vec![None; count * count];
+        for pair in &self.pairs {
+            let [a, b] = pair.between;
+            if a >= count || b >= count {
+                return Err(self.refuse(format!("pair {a}, {b}: there are {count} materials")));
+            }
+            table[a * count + b] = Some(*pair);
+            table[b * count + a] = Some(*pair);
+        }
+        Ok(table)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        if self.particles.len() >= contacts::MOST {
+            return Err(self.refuse(format!("{} particles, at most {}", self.particles.len(), contacts::MOST - 1)));
+        }
+        let materials = self.particles.iter().map(|particle| particle.material);
+        if let Some(material) =
+            materials.chain(self.bodies.iter().map(|body| body.material)).find(|m| *m >= self.materials)
+        {
+            return Err(self.refuse(format!("material {material}: there are {}", self.materials)));
+        }
+        Ok(())
+    }
 }
 
 /// The state of a run.
-struct Simulation<'a, M: ContactModel> {
-    scene: &'a Scene,
+pub struct Simulation<M: ContactModel> {
+    name: String,
     model: M,
     shared: M::Shared,
     gravity: Vector,
+    time_step: f64,
+    start: Start,
+    ledger_kept: bool,
+    plane_radius_factor: Option<f64>,
+    materials: usize,
     table: Vec<Option<PairProperties>>,
+    domain: Domain,
     particles: Particles,
     bodies: Vec<Body>,
     neighbors: Neighbors,
     contacts: Contacts<M::History>,
     ledger: Ledger,
+    step: u64,
+    rebuilds: u64,
+    stale: bool,
 }
 
-impl<'a, M: ContactModel> Simulation<'a, M> {
-    fn new(scene: &'a Scene, model: M) -> Self {
-        let count = scene.materials.len();
-        let mut table = vec![None; count * count];
-        for pair in &scene.pairs {
-            let [a, b] = pair.between;
-            table[a * count + b] = Some(*pair);
-            table[b * count + a] = Some(*pair);
-        }
-        let particles = Particles::new(scene);
-        Self {
-            scene,
-            model,
+impl<M: ContactModel> Simulation<M> {
+    /// The state at step 0, its forces evaluated.
+    ///
+    /// # Errors
+    /// The setup is inconsistent, or a periodic axis is shorter than two cutoffs.
+    pub fn new(setup: &Setup, model: M) -> Result<Self, Error> {
+        let mut simulation = Self::unevaluated(setup, model)?;
+        simulation.rebuild()?;
+        simulation.begin();
+        Ok(simulation)
+    }
+
+    fn unevaluated(setup: &Setup, model: M) -> Result<Self, Error> {
+        setup.check()?;
+        let smallest = setup.particles.iter().map(|particle| particle.radius).fold(f64::INFINITY, f64::min);
+        let skin = setup.skin.unwrap_or(if smallest.is_finite() { SKIN * smallest } else { 0.0 });
+        Ok(Self {
+            name: setup.name.clone(),
             shared: M::Shared::default(),
-            gravity: scene.gravity.into(),
-            table,
-            neighbors: Neighbors::new(&particles, model.reach()),
-            bodies: scene.bodies.iter().map(Body::new).collect(),
+            gravity: setup.gravity,
+            time_step: setup.time_step,
+            start: setup.start,
+            ledger_kept: setup.ledger,
+            plane_radius_factor: setup.plane_radius_factor,
+            materials: setup.materials,
+            table: setup.table()?,
+            domain: setup.domain.clone(),
+            particles: Particles::new(&setup.particles),
+            bodies: setup.bodies.clone(),
+            neighbors: Neighbors::new(skin, model.reach()),
             contacts: Contacts::default(),
             ledger: Ledger::default(),
-            particles,
-        }
+            step: 0,
+            rebuilds: 0,
+            stale: false,
+            model,
+        })
     }
 
-    fn run(mut self, progress: &(dyn Fn(u64) + Sync)) -> Result<Recorder, Error> {
-        let mut recorder = Recorder::new(self.scene);
-        match self.scene.mirror.start {
-            Start::Synchronized => self.velocity_verlet(&mut recorder, progress)?,
-            Start::Staggered => self.staggered(&mut recorder, progress)?,
+    /// Evaluates the forces of step 0 and starts the velocities where the scheme has them.
+    fn begin(&mut self) {
+        if self.start == Start::Staggered {
+            // v(-1/2) = v(0) - g dt / 2: only the weight acts before the first contact.
+            for motion in &mut self.particles.motion {
+                motion.velocity -= self.gravity * (0.5 * self.time_step);
+            }
         }
-        Ok(recorder)
+        self.forces(0.0);
+        self.arrive();
     }
 
-    fn velocity_verlet(&mut self, recorder: &mut Recorder, progress: &(dyn Fn(u64) + Sync)) -> Result<(), Error> {
-        let dt = self.scene.time_step;
-        self.forces(0, 0.0);
-        self.sample(recorder, 0, 0.0)?;
-        for step in 1..=self.scene.steps {
-            integrate::kick(&mut self.particles, &self.gravity, 0.5 * dt);
-            self.drift(dt);
-            self.forces(step, dt);
-            integrate::kick(&mut self.particles, &self.gravity, 0.5 * dt);
-            self.sample(recorder, step, 0.0)?;
-            progress(step);
+    /// Goes on to `step`, where loads are complete and velocities as the scheme stores them.
+    ///
+    /// # Errors
+    /// A periodic axis is shorter than two cutoffs.
+    pub fn advance_to(&mut self, step: u64) -> Result<(), Error> {
+        if self.step < step {
+            self.depart();
+        }
+        while self.step < step {
+            for body in &mut self.bodies {
+                body.drift(self.time_step);
+            }
+            if self.stale || self.neighbors.body_displacement(&self.bodies) >= self.neighbors.allowance() {
+                self.rebuild()?;
+            }
+            self.step += 1;
+            self.forces(self.time_step);
+            if self.step < step {
+                self.arrive_and_depart();
+            } else {
+                self.arrive();
+            }
         }
         Ok(())
     }
 
-    fn staggered(&mut self, recorder: &mut Recorder, progress: &(dyn Fn(u64) + Sync)) -> Result<(), Error> {
-        let dt = self.scene.time_step;
-        // v(-1/2) = v(0) - g dt / 2: only the weight acts before the first contact.
-        for velocity in &mut self.particles.velocity {
-            *velocity -= self.gravity * (0.5 * dt);
+    /// Builds the neighbour list anew; contacts that live keep their memory.
+    ///
+    /// # Errors
+    /// A periodic axis is shorter than two cutoffs.
+    pub fn rebuild(&mut self) -> Result<(), Error> {
+        let largest = self.particles.place.iter().map(|place| place.radius).fold(0.0, f64::max);
+        let cutoff = 2.0 * largest + self.neighbors.skin + self.neighbors.reach;
+        if let Some(axis) = self.domain.too_short(cutoff) {
+            let (length, axis) = (self.domain.length[axis], ["x", "y", "z"][axis]);
+            let reason =
+                format!("the periodic axis {axis} is {length} m long: at least two cutoffs, {} m", 2.0 * cutoff);
+            return Err(Error::Scene { scene: self.name.clone(), reason });
         }
-        for step in 0..=self.scene.steps {
-            self.forces(step, if step == 0 { 0.0 } else { dt });
-            integrate::kick(&mut self.particles, &self.gravity, dt);
-            self.sample(recorder, step, 0.5 * dt)?;
-            self.drift(dt);
-            progress(step);
-        }
+        let order = self.neighbors.order(&mut self.particles, &self.domain);
+        self.list(Some(&order));
+        self.rebuilds += 1;
+        self.stale = false;
         Ok(())
     }
 
-    fn drift(&mut self, dt: f64) {
-        integrate::drift(&mut self.particles, dt);
-        for body in &mut self.bodies {
-            body.drift(dt);
+    /// Searches the candidates of particles that stand in order, and carries over what contacts remember.
+    fn list(&mut self, order: Option<&[u32]>) {
+        let (mut pairs, mut near) = self.neighbors.search(&self.particles, &self.bodies, &self.domain);
+        if self.table.iter().any(Option::is_none) {
+            let material = |at: u32| self.particles.motion[at as usize].material as usize;
+            let stated = |a: usize, b: usize| self.table[a * self.materials + b].is_some();
+            pairs.retain(|[one, other]| stated(material(*one), material(*other)));
+            near.retain(|near| stated(material(near.particle), self.bodies[near.body as usize].material));
         }
+        let mut contacts = Contacts::new(&self.particles, &self.domain, &pairs, &near, self.ledger_kept);
+        if let Some(order) = order
+            && !self.contacts.blocks.is_empty()
+        {
+            contacts.carry(&self.contacts, order);
+        }
+        self.contacts = contacts;
     }
 
-    /// Forces at the present positions; `elapsed` [s] is the time since the last sweep.
-    fn forces(&mut self, step: u64, elapsed: f64) {
-        let reach = self.model.reach();
-        if self.neighbors.stale(&self.particles, &self.bodies, reach) {
-            let pairs = self.neighbors.rebuild(&self.particles, &self.bodies);
-            self.contacts.replace(&pairs, self.particles.len());
-        }
-        self.model.advance(&mut self.shared, step as f64 * self.scene.time_step, elapsed);
-        let mut slots = std::mem::take(&mut self.contacts.slots);
-        let this = &*self;
-        if slots.len() > CHUNK {
-            slots.par_chunks_mut(CHUNK).for_each(|chunk| chunk.iter_mut().for_each(|slot| this.contact(slot, elapsed)));
-        } else {
-            for slot in &mut slots {
-                this.contact(slot, elapsed);
+    /// Gives the periodic axes the edge `edge` [m] and moves the particles affinely; velocities stay.
+    pub fn rescale(&mut self, edge: f64) {
+        let old = self.domain.length;
+        for axis in (0..3).filter(|axis| self.domain.periodic[*axis]) {
+            self.domain.length[axis] = edge;
+            let (min, factor) = (self.domain.min[axis], edge / old[axis]);
+            for place in &mut self.particles.place {
+                place.position[axis] = min + (place.position[axis] - min) * factor;
             }
         }
-        self.contacts.slots = slots;
-        self.gather();
-        energy::body_forces(&self.contacts, &mut self.bodies);
-        self.ledger.accumulate(&self.contacts);
     }
 
-    fn gather(&mut self) {
-        let Particles { force, torque, .. } = &mut self.particles;
-        let contacts = &self.contacts;
-        let sum = |first: usize, force: &mut [Vector], torque: &mut [Vector]| {
-            for (offset, (force, torque)) in force.iter_mut().zip(torque).enumerate() {
-                (*force, *torque) = contacts.gather(first + offset);
-            }
-        };
-        if force.len() > CHUNK {
-            let chunks = force.par_chunks_mut(CHUNK).zip(torque.par_chunks_mut(CHUNK)).enumerate();
-            chunks.for_each(|(chunk, (force, torque))| sum(chunk * CHUNK, force, torque));
-        } else {
-            sum(0, force, torque);
+    /// Takes back the last half kick of velocity Verlet: the velocities that the present loads saw, to rounding.
+    pub fn undo_half_kick(&mut self) {
+        for (motion, load) in self.particles.motion.iter_mut().zip(&self.particles.load) {
+            motion.velocity -= (load.force / motion.mass + self.gravity) * (0.5 * self.time_step);
         }
     }
 
-    /// Evaluates one slot over the last `elapsed` [s].
-    fn contact(&self, slot: &mut Slot<M::History>, elapsed: f64) {
-        let Some((contact, wall)) = self.describe(slot) else { return };
-        let before = slot.state;
-        let normal_velocity = contact.approach().normal_velocity;
-        slot.state = SlotState::default();
-        slot.alive = self.model.alive(contact.geometry.overlap, &slot.history);
-        if slot.alive {
-            let action = self.model.evaluate(&contact, &self.shared, elapsed, &mut slot.history);
-            slot.state.force = action.force;
-            slot.state.torque_i = action.torque_i;
-            slot.state.torque_j = action.torque_j;
-            slot.state.normal_force = action.normal.force;
-            slot.state.damping_force = action.normal.force - action.normal.elastic;
-            slot.state.energy = action.normal.energy;
-        } else {
-            slot.history = M::History::default();
+    /// Multiplies all velocities by `factor`.
+    pub fn slow_down(&mut self, factor: f64) {
+        for motion in &mut self.particles.motion {
+            motion.velocity *= factor;
+            motion.angular_velocity *= factor;
         }
-        let mean = |now: f64, then: f64| 0.5 * (now + then);
-        slot.state.dissipated = mean(slot.state.damping_force, before.damping_force) * normal_velocity * elapsed;
-        slot.state.entered = (mean(slot.state.normal_force, before.normal_force) * normal_velocity * elapsed).max(0.0);
-        slot.state.body_work = 0.5 * (slot.state.force + before.force).dot(&wall) * elapsed;
     }
 
-    /// What a law may know of a slot's contact, and the velocity of its body [m/s].
-    fn describe(&self, slot: &Slot<M::History>) -> Option<(Contact, Vector)> {
-        let particles = &self.particles;
-        let i = slot.i as usize;
-        let (mut geometry, mass, material, velocity, angular, wall) = match slot.partner {
-            Partner::Particle(j) => {
-                let j = j as usize;
-                let geometry = geometry::sphere_sphere(
-                    particles.position[i],
-                    particles.radius[i],
-                    particles.position[j],
-                    particles.radius[j],
-                )?;
-                let mass = material::reduced(particles.mass[i], particles.mass[j]);
-                let velocity = particles.velocity[j];
-                (geometry, mass, particles.material[j], velocity, particles.angular_velocity[j], Vector::zeros())
-            }
-            Partner::Body(j) => {
-                let body = &self.bodies[j as usize];
-                let geometry =
-                    geometry::sphere_plane(particles.position[i], particles.radius[i], body.point, body.normal);
-                (geometry, particles.mass[i], body.material, body.velocity, Vector::zeros(), body.velocity)
-            }
-        };
-        if let (Partner::Body(_), Some(factor)) = (slot.partner, self.scene.mirror.plane_radius_factor) {
-            geometry.radius_j = factor * geometry.radius_i;
-        }
-        let pair = self.table[particles.material[i] * self.scene.materials.len() + material]?;
-        let pair = PairLaw {
-            effective_young: pair.effective_young,
-            effective_radius: geometry.effective_radius(),
-            effective_mass: mass,
-            damping_ratio: pair.damping_ratio,
-        };
-        let velocity = particles.velocity[i] - velocity;
-        let contact =
-            Contact { pair, geometry, velocity, angular_i: particles.angular_velocity[i], angular_j: angular };
-        Some((contact, wall))
+    /// Number of finished steps.
+    #[must_use]
+    pub fn step(&self) -> u64 {
+        self.step
     }
 
-    /// Records the present state if it is due; velocities are ahead of positions by `ahead` [s].
-    fn sample(&mut self, recorder: &mut Recorder, step: u64, ahead: f64) -> Result<(), Error> {
-        if !step.is_multiple_of(self.scene.output_every) {
-            return Ok(());
-        }
-        if let Some(particle) = self.particles.position.iter().position(|x| !x.iter().all(|c| c.is_finite())) {
-            return Err(Error::Diverged { scene: self.scene.name(), particle, step });
-        }
-        let mut synchronized = Synchronized::default();
-        integrate::synchronized(&self.particles, &self.gravity, ahead, &mut synchronized);
-        self.ledger.measure(&self.particles, &self.contacts, &self.gravity, &synchronized);
-        recorder.sample(step, &self.particles, &self.bodies, &self.ledger);
-        Ok(())
+    /// How often the neighbour list was built.
+    #[must_use]
+    pub fn rebuilds(&self) -> u64 {
+        self.rebuilds
+    }
+
+    /// The particles.
+    #[must_use]
+    pub fn particles(&self) -> &Particles {
+        &self.particles
+    }
+
+    /// The walls.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// The contacts.
+    #[must_use]
+    pub fn contacts(&self) -> &Contacts<M::History> {
+        &self.contacts
+    }
+
+    /// The box.
+    #[must_use]
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    /// The energies at the present step.
+    pub fn energies(&mut self) -> Ledger {
+        let ahead = if self.start == Start::Staggered { 0.5 * self.time_step } else { 0.0 };
+        self.ledger.measure(&self.particles, &self.contacts, &self.gravity, ahead);
+        self.ledger
     }
 }

@@ -112,7 +112,7 @@ fn scene() -> serde_json::Value {
 fn refusal(pointer: &str, value: serde_json::Value) -> String {
     let mut json = scene();
     *json.pointer_mut(pointer).unwrap() = value;
-    let run = |scene: Scene| simulation::run(&scene, 1, &|_| {});
+    let run = |scene: Scene| simulation::run(&scene, &simulation::Options::threads(1), &|_| {});
     match parse_scene("spoiled.json", &json.to_string()).and_then(run) {
         Ok(_) => panic!("{pointer} is accepted"),
         Err(error) => error.to_string(),
@@ -155,7 +155,7 @@ fn two_particles_of_a_scene_at_one_place_are_refused() {
         {"between": [0, 0], "effective_young": 1e6, "effective_shear": null, "damping_ratio": 0.0, "restitution": null}
     ));
     let scene = parse_scene("scene.json", &json.to_string()).unwrap();
-    let error = simulation::run(&scene, 1, &|_| {}).err().unwrap().to_string();
+    let error = simulation::run(&scene, &simulation::Options::threads(1), &|_| {}).err().unwrap().to_string();
     assert!(error.contains("particles.1.position") && error.contains("another particle is there"), "{error}");
 }
 

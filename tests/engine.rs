@@ -100,7 +100,7 @@ fn cloud(side: usize) -> Scene {
 }
 
 fn run(scene: &Scene, threads: usize) -> Recorder {
-    simulation::run(scene, threads, &|_| {}).unwrap()
+    simulation::run(scene, &simulation::Options::threads(threads), &|_| {}).unwrap()
 }
 
 fn bits(recorder: &Recorder) -> Vec<u64> {

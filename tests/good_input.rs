@@ -22,7 +22,7 @@ fn minimal_cases_run() {
     assert_eq!(cases.len(), 4);
     for (path, loaded) in cases {
         for scene in &loaded.scenes {
-            let record = simulation::run(scene, 1, &|_| {}).unwrap();
+            let record = simulation::run(scene, &simulation::Options::threads(1), &|_| {}).unwrap();
             let moved = record.values("position").len() > 3 * scene.particles.len();
             assert!(moved, "{}: one sample only", path.display());
             let ran = record.last("time").unwrap();

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cross_check.adapters.interface import RunFailed
+from cross_check.adapters.rows import number_rows
 from cross_check.adapters.runner import Columns
 from cross_check.scene import Scene
 
@@ -35,7 +35,7 @@ def read_frames(path: Path, columns: Sequence[str], count: int, steps: Sequence[
         raise RunFailed(_first_fault(path, lines, columns, count, steps))
     rows: list[Array] = []
     for row in range(HEAD, length):
-        values = _numbers(lines[row::length], len(columns))
+        values = number_rows(lines[row::length], len(columns))
         if values is None:
             raise RunFailed(_first_fault(path, lines, columns, count, steps))
         rows.append(values)
@@ -62,22 +62,6 @@ def _heads_are_right(lines: list[bytes], columns: Sequence[str], count: int, ste
     return lines[1:-1:length] == [b"%d" % step for step in steps]
 
 
-def _numbers(lines: list[bytes], width: int) -> Array | None:
-    """The numbers of rows of `width` values, shape (T, C), or None if a row is not such a row or not finite."""
-    if {line.rstrip().count(b" ") for line in lines} != {width - 1}:
-        return None
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            values = np.fromstring(b" ".join(lines), dtype=np.float64, sep=" ")
-        except (ValueError, DeprecationWarning):
-            return None
-    if values.size != width * len(lines) or not np.all(np.isfinite(values)):
-        return None
-    table: Array = np.reshape(values, (len(lines), width))
-    return table
-
-
 def _first_fault(path: Path, lines: list[bytes], columns: Sequence[str], count: int, steps: Sequence[int]) -> str:
     """Where and how the dump departs from what was ordered."""
     length = HEAD + count
@@ -94,7 +78,7 @@ def _first_fault(path: Path, lines: list[bytes], columns: Sequence[str], count: 
             return f"{where}: step {text!r} in place of {steps[frame]}"
         if place == 4 and not text.startswith("ITEM: BOX BOUNDS"):
             return f"{where}: {text!r} in place of 'ITEM: BOX BOUNDS'"
-        if place >= HEAD and _numbers([line], len(columns)) is None:
+        if place >= HEAD and number_rows([line], len(columns)) is None:
             return f"{where}: not {len(columns)} finite numbers: {text!r}"
     found = (len(lines) - 1) // length
     return f"{path}:{len(lines)}: the file ends after {found} of {len(steps)} frames"

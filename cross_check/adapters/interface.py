@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
 
 from cross_check.record import Code, RunRecord
 from cross_check.scene import Scene
@@ -61,27 +61,19 @@ class RunFailed(Exception):
     """The code did not deliver a record that can be trusted; the message says what happened and where its log is."""
 
 
-class Adapter(Protocol):
-    """One external code."""
+@dataclass
+class Adapter:
+    """One external code: the functions of its folder under one name.
+
+    `installed` gives the program with its version and package, or None. `deck` translates and renders; it raises
+    NotComparable with the reason. `mirror` gives the same scene with the engine options that reproduce what the code
+    computes. `run` runs decks headless, each in its own folder below the given one, with a time limit per deck [s], and
+    gives one result per deck, in order; logs are captured in the deck's folder.
+    """
 
     name: str
     proved_versions: tuple[str, ...]
-
-    def installed(self) -> Code | None:
-        """The installed program with its version and package, or None."""
-        ...
-
-    def deck(self, scene: Scene) -> Deck:
-        """Translates and renders. Raises NotComparable with the reason."""
-        ...
-
-    def mirror(self, scene: Scene) -> Scene:
-        """The same scene with the engine options that reproduce what this code computes."""
-        ...
-
-    def run(self, decks: list[Deck], folder: Path, time_limit: float) -> list[RunRecord | RunFailed]:
-        """Runs decks headless, each in its own folder below `folder`; one result per deck, in order.
-
-        `time_limit` is seconds per deck. Logs are captured in the deck's folder.
-        """
-        ...
+    installed: Callable[[], Code | None]
+    deck: Callable[[Scene], Deck]
+    mirror: Callable[[Scene], Scene]
+    run: Callable[[list[Deck], Path, float], list[RunRecord | RunFailed]]

@@ -2,6 +2,7 @@
 
 mod duration;
 mod mirror;
+mod specification;
 mod supported;
 mod valid;
 
@@ -17,6 +18,7 @@ use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Level};
 use super::source::ParticleSource;
 use crate::Vector;
+use crate::bodies::Body;
 use crate::error::Problem;
 use crate::geometry::{self, ContactGeometry};
 use crate::laws::PairLaw;
@@ -104,6 +106,7 @@ pub struct SceneBody {
 #[expect(missing_docs, reason = "docs/formats.md describes every field")]
 pub enum SceneShape {
     Plane { point: [f64; 3], normal: [f64; 3] },
+    Cylinder { point: [f64; 3], axis: [f64; 3], radius: f64 },
 }
 
 /// Motion of a wall [m/s].
@@ -181,8 +184,9 @@ pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Pro
     scene.particles = case.particles.iter().filter_map(|source| single(case, source)).collect();
     weighable(&scene)?;
     drop_unused_materials(&mut scene);
+    let laws = scene.model.specification(&scene.mirror)?;
     let approaches = approaches(case, &scene)?;
-    duration::steps(case, &mut scene, &approaches)?;
+    duration::steps(case, &mut scene, &laws.normal, &approaches)?;
     duration::travel(&scene)?;
     Ok(scene)
 }
@@ -253,12 +257,18 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
 fn bodies(case: &Case) -> Vec<SceneBody> {
     let mut scene = Vec::new();
     for body in &case.bodies {
-        let Shape::Plane { point, normal } = &body.shape else { continue };
-        let normal = Vector::from(normal.map(Number::get)).normalize();
+        let unit = |direction: &[Number; 3]| Vector::from(direction.map(Number::get)).normalize().into();
+        let shape = match &body.shape {
+            Shape::Plane { point, normal } => SceneShape::Plane { point: si(point), normal: unit(normal) },
+            Shape::Cylinder { point, axis, radius } => {
+                SceneShape::Cylinder { point: si(point), axis: unit(axis), radius: radius.si() }
+            }
+            Shape::Mesh { .. } => continue,
+        };
         scene.push(SceneBody {
             name: body.name.clone(),
             material: index(case, &body.material),
-            shape: SceneShape::Plane { point: si(point), normal: normal.into() },
+            shape,
             motion: match &body.motion {
                 Motion::Prescribed { velocity } => SceneMotion::Prescribed { velocity: si(velocity) },
                 _ => SceneMotion::Fixed,
@@ -321,15 +331,7 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
             }
             let speed = -velocity.dot(&geometry.normal);
             if let (true, Some(pair)) = (speed > 0.0, scene.pair(materials[0], materials[1])) {
-                found.push(StartApproach {
-                    law: PairLaw {
-                        effective_young: pair.effective_young,
-                        effective_radius: geometry.effective_radius(),
-                        effective_mass: mass,
-                        damping_ratio: pair.damping_ratio,
-                    },
-                    speed,
-                });
+                found.push(StartApproach { law: pair.law(geometry.effective_radius(), mass), speed });
             }
             Ok(())
         };
@@ -356,8 +358,7 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
             )?;
         }
         for body in &scene.bodies {
-            let SceneShape::Plane { point, normal } = &body.shape;
-            let geometry = geometry::sphere_plane(center, one.radius, (*point).into(), (*normal).into());
+            let Some(geometry) = Body::new(body).geometry(center, one.radius) else { continue };
             let wall = match &body.motion {
                 SceneMotion::Prescribed { velocity } => Vector::from(*velocity),
                 SceneMotion::Fixed => Vector::zeros(),

@@ -2,7 +2,8 @@
 
 use crate::Vector;
 
-use super::{Contact, MomentLaw, NormalLaw, NormalState, TangentialLaw, TangentialState};
+use super::memory::Memory;
+use super::{Contact, Losses, MomentLaw, MomentState, NormalLaw, NormalState, TangentialLaw, TangentialState};
 
 /// Force and moments of one contact.
 #[derive(Clone, Copy, Debug)]
@@ -15,14 +16,18 @@ pub struct Action {
     pub torque_j: Vector,
     /// The normal state behind the force.
     pub normal: NormalState,
+    /// Energy stored in the contact plane and in moments [J].
+    pub springs: f64,
+    /// Losses of the step, but for the dashpot along the normal.
+    pub losses: Losses,
 }
 
 /// A composed model: the only thing that the sweep over contacts calls.
 pub trait ContactModel: Copy + Send + Sync {
     /// What one contact remembers.
-    type History: Copy + Default + Send + Sync;
+    type History: Memory;
     /// What all contacts share.
-    type Shared: Clone + Default + Send + Sync;
+    type Shared: Memory;
 
     /// Advances the shared state by `dt` [s] to `time` [s].
     fn advance(&self, shared: &mut Self::Shared, time: f64, dt: f64);
@@ -64,10 +69,11 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
         self.normal.reach()
     }
 
+    #[inline(always)]
     fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action {
         let normal = self.normal.evaluate(&contact.pair, &contact.approach(), shared, &mut history.0);
         let tangential = self.tangential.evaluate(contact, &normal, dt, &mut history.1);
-        let moment = self.moments.evaluate(contact, &normal, dt, &mut history.2);
+        let moments = self.moments.evaluate(contact, &normal, &tangential, dt, &mut history.2);
         let normal = self.normal.finish(normal, tangential.sliding, &mut history.0);
         let direction = contact.geometry.normal;
         let [arm_i, arm_j] = tangential.arms;
@@ -75,9 +81,11 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
         let twist = direction.cross(&tangential.force);
         Action {
             force: direction * normal.force + tangential.force,
-            torque_i: moment - twist * arm_i,
-            torque_j: -moment - twist * arm_j,
+            torque_i: moments.moment - twist * arm_i,
+            torque_j: -moments.moment - twist * arm_j,
             normal,
+            springs: tangential.energy + moments.energy,
+            losses: tangential.losses + moments.losses + Losses { plastic: normal.plastic, ..Losses::default() },
         }
     }
 }
@@ -89,8 +97,17 @@ pub struct Frictionless;
 impl TangentialLaw for Frictionless {
     type History = ();
 
+    #[inline(always)]
     fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> TangentialState {
-        TangentialState { force: Vector::zeros(), sliding: false, arms: [0.0; 2] }
+        TangentialState {
+            force: Vector::zeros(),
+            sliding: false,
+            arms: [0.0; 2],
+            stiffness: 0.0,
+            dashpot: 0.0,
+            energy: 0.0,
+            losses: Losses::default(),
+        }
     }
 }
 
@@ -101,7 +118,8 @@ pub struct Free;
 impl MomentLaw for Free {
     type History = ();
 
-    fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> Vector {
-        Vector::zeros()
+    #[inline(always)]
+    fn evaluate(&self, _: &Contact, _: &NormalState, _: &TangentialState, _: f64, (): &mut ()) -> MomentState {
+        MomentState { moment: Vector::zeros(), energy: 0.0, losses: Losses::default() }
     }
 }

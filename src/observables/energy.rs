@@ -4,8 +4,9 @@
 //! balance is therefore a measure of the integrator's error, never zero by construction. Work over a step is the mean
 //! of the forces at its two ends times the half-step velocity, which velocity Verlet and the staggered start share.
 
-use crate::bodies::Body;
-use crate::contacts::Contacts;
+use crate::Vector;
+use crate::contacts::{Account, Contacts};
+use crate::laws::memory::Memory;
 use crate::particles::Particles;
 
 /// Energies at one time [J].
@@ -19,6 +20,15 @@ pub struct Ledger {
     pub gravity: f64,
     /// Energy dissipated by dashpots since the start.
     pub viscous: f64,
+    /// Energy dissipated by sliding since the start.
+    pub frictional: f64,
+    /// Energy dissipated by rolling and twisting since the start.
+    pub rolling: f64,
+    /// Energy dissipated by plastic flow since the start.
+    pub plastic: f64,
+    /// Energy that loaded springs lost since the start as their stiffness changed, as they turned, and with contacts that
+    /// opened.
+    pub carried: f64,
     /// Work of moving bodies on the particles since the start.
     pub body_work: f64,
     /// Energy that entered contacts since the start, the scale of the residual.
@@ -28,52 +38,50 @@ pub struct Ledger {
 impl Ledger {
     /// Adds what the last sweep dissipated and received.
     pub fn accumulate<H>(&mut self, contacts: &Contacts<H>) {
-        for slot in &contacts.slots {
-            self.viscous += slot.state.dissipated;
-            self.entered += slot.state.entered;
-            self.body_work += slot.state.body_work;
+        for block in &contacts.blocks {
+            let losses = block.flow.losses;
+            self.viscous += block.flow.dissipated + losses.viscous;
+            self.frictional += losses.frictional;
+            self.rolling += losses.rolling;
+            self.plastic += losses.plastic;
+            self.carried += losses.carried;
+            self.entered += block.flow.entered;
+            self.body_work += block.flow.body_work;
         }
     }
 
-    /// Measures the energies of a state; `velocity` and `angular` are synchronized with the positions.
-    pub fn measure<H>(
-        &mut self,
-        particles: &Particles,
-        contacts: &Contacts<H>,
-        gravity: &crate::Vector,
-        synchronized: &Synchronized,
-    ) {
+    /// Measures the energies of a state whose velocities are ahead of the positions by `ahead` [s].
+    pub fn measure<H: Memory>(&mut self, particles: &Particles, contacts: &Contacts<H>, gravity: &Vector, ahead: f64) {
         self.kinetic = 0.0;
         self.gravity = 0.0;
         for i in 0..particles.len() {
-            self.kinetic += 0.5 * particles.mass[i] * synchronized.velocity[i].norm_squared();
-            self.kinetic += 0.5 * particles.moment_of_inertia[i] * synchronized.angular[i].norm_squared();
-            self.gravity -= particles.mass[i] * gravity.dot(&particles.position[i]);
+            let (motion, load) = (&particles.motion[i], &particles.load[i]);
+            let inertia = particles.moment_of_inertia[i];
+            let velocity = motion.velocity - (load.force / motion.mass + gravity) * ahead;
+            let angular = motion.angular_velocity - load.torque * (ahead / inertia);
+            self.kinetic += 0.5 * motion.mass * velocity.norm_squared();
+            self.kinetic += 0.5 * inertia * angular.norm_squared();
+            self.gravity -= motion.mass * gravity.dot(&particles.place[i].position);
         }
+        let sum = |accounts: &[Account]| accounts.iter().map(|account| account.energy).sum::<f64>();
         self.elastic = 0.0;
-        for slot in &contacts.slots {
-            self.elastic += slot.state.energy;
+        for block in &contacts.blocks {
+            self.elastic += sum(&block.pairs.accounts) + sum(&block.near.accounts);
         }
     }
 }
 
-/// Velocities at the times of the positions.
-#[derive(Clone, Debug, Default)]
-pub struct Synchronized {
-    /// Velocities [m/s].
-    pub velocity: Vec<crate::Vector>,
-    /// Angular velocities [rad/s].
-    pub angular: Vec<crate::Vector>,
-}
+impl Memory for Ledger {
+    const WIDTH: usize = 10;
 
-/// Sum of the forces on each body in the order of the slots [N].
-pub fn body_forces<H>(contacts: &Contacts<H>, bodies: &mut [Body]) {
-    for body in bodies.iter_mut() {
-        body.force = crate::Vector::zeros();
+    fn save(&self, into: &mut Vec<f64>) {
+        into.extend([self.kinetic, self.elastic, self.gravity, self.viscous, self.body_work, self.entered]);
+        into.extend([self.frictional, self.rolling, self.plastic, self.carried]);
     }
-    for slot in &contacts.slots {
-        if let crate::contacts::Partner::Body(body) = slot.partner {
-            bodies[body as usize].force -= slot.state.force;
-        }
+
+    fn restore(values: &mut impl Iterator<Item = f64>) -> Self {
+        let ((kinetic, elastic, gravity), (viscous, body_work, entered)) = Memory::restore(values);
+        let ((frictional, rolling), (plastic, carried)) = Memory::restore(values);
+        Self { kinetic, elastic, gravity, viscous, frictional, rolling, plastic, carried, body_work, entered }
     }
 }

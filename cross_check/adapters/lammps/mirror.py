@@ -61,6 +61,7 @@ def _twisting(scene: Scene) -> TwistingOptions | None:
 def mirror(scene: Scene) -> Scene:
     """`scene` as the native engine must run it to repeat LAMMPS: no cut unless asked, planes without curvature."""
     options = Mirror(
+        code="lammps",
         plane_radius_factor=None,
         start="synchronized",
         tangential=_tangential(scene) if contact_laws.frictional(scene) else None,

@@ -51,6 +51,7 @@ def _opposed(scene: Scene) -> str | None:
 def mirror(scene: Scene) -> Scene:
     """`scene` as the native engine must run it to repeat LIGGGHTS: no cut unless asked, planes without curvature."""
     options = Mirror(
+        code="liggghts",
         plane_radius_factor=None,
         start="synchronized",
         tangential=TANGENTIAL if contact_laws.frictional(scene) else None,

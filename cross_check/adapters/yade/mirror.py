@@ -40,7 +40,8 @@ def _rolling(scene: Scene) -> RollingOptions | None:
         return None
     return RollingOptions(
         stiffness=RollingStiffness("constant", moments.stiffness(scene, law, touching(scene))),
-        limit=law.limit,
+        # A contact whose normal force is cut at zero has no cap.
+        limit="while_pressed" if law.limit == "effective_radius" else law.limit,
         dashpot=RollingDashpot("none"),
         history="force",
         rotation="small_angles",
@@ -62,6 +63,7 @@ def _twisting(scene: Scene) -> TwistingOptions | None:
 def mirror(scene: Scene) -> Scene:
     """`scene` as the native engine must run it to repeat YADE: walls as spheres of 1e8 radii, half-step velocities."""
     options = Mirror(
+        code="yade",
         plane_radius_factor=PLANE_RADIUS_FACTOR,
         start="staggered",
         tangential=_tangential(scene) if contact_laws.frictional(scene) else None,

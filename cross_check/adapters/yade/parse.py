@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cross_check.adapters.interface import RunFailed
+from cross_check.adapters.rows import number_rows
 from cross_check.adapters.runner import Columns
 from cross_check.adapters.yade.translate import PARTICLE_COLUMNS, PARTICLES, WALL_COLUMNS, WALLS
 from cross_check.scene import Scene
@@ -43,9 +43,9 @@ def read_table(path: Path, columns: tuple[str, ...], scene: Scene, ids: range) -
         raise RunFailed(f"{path}:1: {lines[0].decode(errors='replace')!r} in place of {head.decode()!r}")
     steps = np.arange(0, scene.steps + 1, scene.output_every)
     wanted = len(steps) * len(ids)
-    values = _numbers(lines[1:-1], len(columns))
+    values = number_rows(lines[1:-1], len(columns))
     if values is None:
-        bad = next(k for k, line in enumerate(lines[1:-1]) if _numbers([line], len(columns)) is None)
+        bad = next(k for k, line in enumerate(lines[1:-1]) if number_rows([line], len(columns)) is None)
         text = lines[1 + bad].decode(errors="replace")
         raise RunFailed(f"{path}:{bad + 2}: not {len(columns)} finite numbers: {text!r}")
     if len(values) != wanted or lines[-1] != b"":
@@ -55,22 +55,4 @@ def read_table(path: Path, columns: tuple[str, ...], scene: Scene, ids: range) -
     if not np.all(order):
         bad = int(np.flatnonzero(~order.ravel())[0])
         raise RunFailed(f"{path}:{bad + 2}: step or id out of order")
-    return table
-
-
-def _numbers(lines: list[bytes], width: int) -> Array | None:
-    """The numbers of rows of `width` values, shape (rows, width), or None if a row is not such a row or not finite."""
-    if not lines:
-        return np.empty((0, width))
-    if {line.count(b" ") for line in lines} != {width - 1}:
-        return None
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            values = np.fromstring(b" ".join(lines), dtype=np.float64, sep=" ")
-        except (ValueError, DeprecationWarning):
-            return None
-    if values.size != width * len(lines) or not np.all(np.isfinite(values)):
-        return None
-    table: Array = np.reshape(values, (len(lines), width))
     return table

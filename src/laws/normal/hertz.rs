@@ -52,22 +52,25 @@ impl NormalLaw for Hertz {
     type History = ();
     type Shared = ();
 
+    #[inline(always)]
     fn evaluate(&self, pair: &PairLaw, approach: &Approach, (): &(), (): &mut ()) -> NormalState {
         let contact_radius = (pair.effective_radius * approach.overlap).sqrt();
         let tangent_stiffness = 2.0 * pair.effective_young * contact_radius;
         let elastic = 2.0 / 3.0 * tangent_stiffness * approach.overlap;
         let constant = 2.0 * (5.0f64 / 6.0).sqrt() * pair.damping_ratio;
-        let dashpot = constant * (tangent_stiffness * pair.effective_mass).sqrt() * approach.normal_velocity;
-        let force = elastic + dashpot;
+        let dashpot = constant * (tangent_stiffness * pair.effective_mass).sqrt();
+        let force = elastic + dashpot * approach.normal_velocity;
         let force = if self.force_cut && force < 0.0 { 0.0 } else { force };
         NormalState {
             force,
             elastic,
-            repulsive: elastic,
+            repulsive: force,
+            dashpot,
             pull_off: 0.0,
             contact_radius,
             tangent_stiffness,
             energy: 0.4 * elastic * approach.overlap,
+            plastic: 0.0,
         }
     }
 }
@@ -79,11 +82,24 @@ mod tests {
     use super::*;
 
     fn pair(damping_ratio: f64) -> PairLaw {
-        PairLaw { effective_young: 5e6, effective_radius: 2e-3, effective_mass: 1e-5, damping_ratio }
+        PairLaw {
+            effective_young: 5e6,
+            effective_shear: 0.0,
+            friction: 0.0,
+            effective_radius: 2e-3,
+            effective_mass: 1e-5,
+            damping_ratio,
+            ..PairLaw::default()
+        }
     }
 
     fn state(law: Hertz, damping_ratio: f64, overlap: f64, normal_velocity: f64) -> NormalState {
-        law.evaluate(&pair(damping_ratio), &Approach { overlap, normal_velocity }, &(), &mut ())
+        law.evaluate(
+            &pair(damping_ratio),
+            &Approach { overlap, normal_velocity, radii: [4e-3; 2], at_body: false },
+            &(),
+            &mut (),
+        )
     }
 
     proptest! {

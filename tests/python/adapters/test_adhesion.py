@@ -1,9 +1,10 @@
-"""Adhesive laws in the real codes against the re-stated formulas: whole histories of force and torque."""
+"""Adhesive laws in the real codes against their mirrors: whole histories of force and torque."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -29,10 +30,12 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Records]:
 
 
 @pytest.mark.parametrize(("code", "name"), NAMES)
-def test_force_and_torque_histories_are_the_formula(code: str, name: str, records: dict[str, Records]) -> None:
+def test_force_and_torque_histories_are_the_mirror(
+    code: str, name: str, records: dict[str, Records], tmp_path: Path
+) -> None:
     if code not in records:
         pytest.skip(f"{code} is not installed")
-    check_history(records[code][name], contact_scenes.adhesive_scenes(code)[name], code)
+    check_history(records[code][name], contact_scenes.adhesive_scenes(code)[name], code, tmp_path)
 
 
 @pytest.mark.parametrize("code", ["yade", "lammps"])

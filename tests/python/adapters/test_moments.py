@@ -1,6 +1,8 @@
-"""Rolling and twisting in the real codes against the re-stated formulas: whole histories of force and torque."""
+"""Rolling and twisting in the real codes against their mirrors: whole histories of force and torque."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import pytest
 
@@ -38,9 +40,9 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str, st
 
 
 @pytest.mark.parametrize(("code", "name", "place"), NAMES)
-def test_force_and_torque_histories_are_the_formula(
-    code: str, name: str, place: str, records: dict[tuple[str, str, str], RunRecord]
+def test_force_and_torque_histories_are_the_mirror(
+    code: str, name: str, place: str, records: dict[tuple[str, str, str], RunRecord], tmp_path: Path
 ) -> None:
     if (code, name, place) not in records:
         pytest.skip(f"{code} is not installed")
-    check_history(records[code, name, place], scene_of(code, name, place), code)
+    check_history(records[code, name, place], scene_of(code, name, place), code, tmp_path)

@@ -1,0 +1,124 @@
+//! The passes over particles: velocity Verlet, and the same trajectory started half a step earlier (leapfrog).
+//!
+//! Both are v(n+1/2) = v(n-1/2) + a(n) dt, x(n+1) = x(n) + v(n+1/2) dt, and both evaluate forces at x(n+1) with
+//! v(n+1/2). They differ in what they store: velocity Verlet completes v(n+1) by half a kick, the staggered scheme
+//! keeps v(n+1/2). The end of a step and the beginning of the next are one pass where nothing looks between them.
+
+use rayon::prelude::*;
+
+use crate::Vector;
+use crate::case::scene::Start;
+use crate::contacts::{BLOCK, Contacts};
+use crate::laws::memory::Memory;
+use crate::laws::model::ContactModel;
+use crate::particles::{Load, Motion, Place};
+
+use super::Simulation;
+
+/// What one pass does.
+#[derive(Clone, Copy)]
+struct Pass {
+    /// Whether loads are completed by the exports of other blocks.
+    gather: bool,
+    /// Kick that ends a step [s].
+    close: f64,
+    /// Kick that begins a step [s].
+    open: f64,
+    /// Time to move over [s].
+    drift: f64,
+    gravity: Vector,
+}
+
+/// Particles of one block.
+struct Chunk<'a> {
+    first: usize,
+    place: &'a mut [Place],
+    motion: &'a mut [Motion],
+    load: &'a mut [Load],
+    moment_of_inertia: &'a [f64],
+    built: &'a [Vector],
+}
+
+impl<M: ContactModel> Simulation<M> {
+    /// Ends a step: loads are gathered and velocities kicked.
+    pub(super) fn arrive(&mut self) {
+        let close = match self.start {
+            Start::Synchronized if self.step == 0 => 0.0,
+            Start::Synchronized => 0.5 * self.time_step,
+            Start::Staggered => self.time_step,
+        };
+        self.pass(Pass { gather: true, close, open: 0.0, drift: 0.0, gravity: self.gravity });
+    }
+
+    /// Begins a step: velocities are kicked and particles moved.
+    pub(super) fn depart(&mut self) {
+        let (open, drift) = self.departure();
+        self.pass(Pass { gather: false, close: 0.0, open, drift, gravity: self.gravity });
+    }
+
+    /// Ends a step and begins the next.
+    pub(super) fn arrive_and_depart(&mut self) {
+        let (open, drift) = self.departure();
+        let close = if self.start == Start::Staggered { self.time_step } else { open };
+        self.pass(Pass { gather: true, close, open, drift, gravity: self.gravity });
+    }
+
+    fn departure(&self) -> (f64, f64) {
+        match self.start {
+            Start::Synchronized => (0.5 * self.time_step, self.time_step),
+            Start::Staggered => (0.0, self.time_step),
+        }
+    }
+
+    fn pass(&mut self, pass: Pass) {
+        let particles = &mut self.particles;
+        let contacts = &self.contacts;
+        let built = self.neighbors.built.chunks(BLOCK);
+        let columns = particles.place.chunks_mut(BLOCK).zip(particles.motion.chunks_mut(BLOCK));
+        let columns = columns.zip(particles.load.chunks_mut(BLOCK)).zip(particles.moment_of_inertia.chunks(BLOCK));
+        let mut chunks = columns.zip(built).enumerate().map(|(index, ((((place, motion), load), moment), built))| {
+            Chunk { first: index * BLOCK, place, motion, load, moment_of_inertia: moment, built }
+        });
+        let furthest = if contacts.blocks.len() > 1 {
+            let chunks: Vec<Chunk> = chunks.collect();
+            let moved: Vec<f64> = chunks.into_par_iter().map(|mut chunk| chunk.pass(pass, contacts)).collect();
+            moved.into_iter().fold(0.0, f64::max)
+        } else {
+            chunks.next().map_or(0.0, |mut chunk| chunk.pass(pass, contacts))
+        };
+        if pass.drift > 0.0 {
+            self.stale = furthest >= self.neighbors.allowance();
+        }
+    }
+}
+
+impl Chunk<'_> {
+    /// Runs a pass and returns the largest squared displacement since the list was built [m2].
+    fn pass<H: Memory>(&mut self, pass: Pass, contacts: &Contacts<H>) -> f64 {
+        let mut furthest = 0.0;
+        for at in 0..self.place.len() {
+            let load = &mut self.load[at];
+            if pass.gather {
+                for import in contacts.imports(self.first + at) {
+                    load.force += import.force;
+                    load.torque += import.torque;
+                }
+            }
+            let motion = &mut self.motion[at];
+            let acceleration = load.force / motion.mass + pass.gravity;
+            let inertia = self.moment_of_inertia[at];
+            for kick in [pass.close, pass.open] {
+                if kick > 0.0 {
+                    motion.velocity += acceleration * kick;
+                    motion.angular_velocity += load.torque * (kick / inertia);
+                }
+            }
+            if pass.drift > 0.0 {
+                let place = &mut self.place[at];
+                place.position += motion.velocity * pass.drift;
+                furthest = f64::max(furthest, (place.position - self.built[at]).norm_squared());
+            }
+        }
+        furthest
+    }
+}

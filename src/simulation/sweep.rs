@@ -1,0 +1,251 @@
+//! The sweep over contacts. A block selects the candidates that may touch, evaluates them, and adds to its particles.
+
+use rayon::prelude::*;
+
+use crate::Vector;
+use crate::bodies::{Body, BodyShape};
+use crate::contacts::{Account, BLOCK, Block, Flow, Pair, Slots};
+use crate::geometry::{self, ContactGeometry};
+use crate::laws::Contact;
+use crate::laws::model::{Action, ContactModel};
+use crate::material::{self, PairProperties};
+use crate::neighbors::Near;
+use crate::particles::{Load, Motion, Place};
+
+use super::Simulation;
+
+/// Share by which the first, cheap test of a pair is wider than the law's own.
+const SLACK: f64 = 1.0 + 1e-12;
+
+/// What all blocks read during a sweep.
+struct View<'a, M: ContactModel> {
+    model: M,
+    shared: &'a M::Shared,
+    table: &'a [Option<PairProperties>],
+    materials: usize,
+    place: &'a [Place],
+    motion: &'a [Motion],
+    bodies: &'a [Body],
+    plane_radius_factor: Option<f64>,
+    shifts: [Vector; 32],
+    reach: f64,
+    elapsed: f64,
+}
+
+impl<M: ContactModel> Simulation<M> {
+    /// Loads at the present positions, but for the exports; `elapsed` [s] is the time since the last sweep.
+    pub(super) fn forces(&mut self, elapsed: f64) {
+        self.model.advance(&mut self.shared, self.step as f64 * self.time_step, elapsed);
+        let view = View {
+            model: self.model,
+            shared: &self.shared,
+            table: &self.table,
+            materials: self.materials,
+            place: &self.particles.place,
+            motion: &self.particles.motion,
+            bodies: &self.bodies,
+            plane_radius_factor: self.plane_radius_factor,
+            shifts: self.domain.shifts(),
+            reach: self.neighbors.reach,
+            elapsed,
+        };
+        let sweep = |block: &mut Block<M::History>, loads: &mut [Load]| {
+            if self.ledger_kept { view.sweep::<true>(block, loads) } else { view.sweep::<false>(block, loads) }
+        };
+        let blocks = &mut self.contacts.blocks;
+        if blocks.len() > 1 {
+            let loads = self.particles.load.par_chunks_mut(BLOCK);
+            blocks.par_iter_mut().zip(loads).for_each(|(block, loads)| sweep(block, loads));
+        } else if let Some(block) = blocks.first_mut() {
+            sweep(block, &mut self.particles.load);
+        }
+        self.body_forces();
+        if self.ledger_kept {
+            self.ledger.accumulate(&self.contacts);
+        }
+    }
+
+    /// Sum of the forces on each body in the order of memory [N].
+    fn body_forces(&mut self) {
+        for body in &mut self.bodies {
+            body.force = Vector::zeros();
+        }
+        for block in &self.contacts.blocks {
+            for (near, force) in block.near.candidates.iter().zip(&block.body_forces) {
+                self.bodies[near.body as usize].force -= force;
+            }
+        }
+    }
+}
+
+impl<M: ContactModel> View<'_, M> {
+    fn sweep<const LEDGER: bool>(&self, block: &mut Block<M::History>, loads: &mut [Load]) {
+        loads.fill(Load::default());
+        block.exports.fill(Load::default());
+        block.flow = Flow::default();
+        let mut active = std::mem::take(&mut block.active);
+        self.select(&block.pairs, &mut active);
+        let border = active.partition_point(|slot| (*slot as usize) < block.inside);
+        for slot in &active[..border] {
+            let slot = *slot as usize;
+            let pair = block.pairs.candidates[slot];
+            if let Some(action) = self.pair::<LEDGER>(pair, slot, &mut block.pairs, &mut block.flow) {
+                push(&mut loads[pair.i() - block.first], action.force, action.torque_i);
+                push(&mut loads[pair.j() - block.first], -action.force, action.torque_j);
+            }
+        }
+        for slot in &active[border..] {
+            let slot = *slot as usize;
+            let pair = block.pairs.candidates[slot];
+            if let Some(action) = self.pair::<LEDGER>(pair, slot, &mut block.pairs, &mut block.flow) {
+                let (own, other) = if pair.i() < pair.j() { (pair.i(), false) } else { (pair.j(), true) };
+                let mut ends = [(action.force, action.torque_i), (-action.force, action.torque_j)];
+                if other {
+                    ends.swap(0, 1);
+                }
+                push(&mut loads[own - block.first], ends[0].0, ends[0].1);
+                push(&mut block.exports[slot - block.inside], ends[1].0, ends[1].1);
+            }
+        }
+        block.active = active;
+        for slot in 0..block.near.candidates.len() {
+            self.near::<LEDGER>(slot, block, loads);
+        }
+    }
+
+    /// Lists the slots whose contacts may act now, or acted before.
+    fn select(&self, pairs: &Slots<Pair, M::History>, active: &mut Vec<u32>) {
+        active.resize(pairs.candidates.len(), 0);
+        let mut count = 0;
+        for ((pair, alive), slot) in pairs.candidates.iter().zip(&pairs.alive).zip(0u32..) {
+            let (one, other) = (&self.place[pair.i()], &self.place[pair.j()]);
+            let squared = (one.position - other.position + self.shifts[pair.image()]).norm_squared();
+            let reach = one.radius + other.radius + self.reach;
+            active[count] = slot;
+            count += usize::from((squared < reach * reach * SLACK) | *alive);
+        }
+        active.truncate(count);
+    }
+
+    #[inline(always)]
+    fn pair<const LEDGER: bool>(
+        &self,
+        pair: Pair,
+        slot: usize,
+        slots: &mut Slots<Pair, M::History>,
+        flow: &mut Flow,
+    ) -> Option<Action> {
+        let (place_i, place_j) = (&self.place[pair.i()], &self.place[pair.j()]);
+        let (motion_i, motion_j) = (&self.motion[pair.i()], &self.motion[pair.j()]);
+        let branch = place_i.position - place_j.position + self.shifts[pair.image()];
+        let squared = branch.norm_squared();
+        let properties =
+            self.table[motion_i.material as usize * self.materials + motion_j.material as usize].as_ref()?;
+        if squared == 0.0 {
+            return None;
+        }
+        let contact = contact(
+            properties,
+            geometry::spheres(branch, squared, place_i.radius, place_j.radius),
+            [motion_i.mass, motion_j.mass],
+            motion_i.velocity - motion_j.velocity,
+            [motion_i.angular_velocity, motion_j.angular_velocity],
+        );
+        self.evaluate::<LEDGER, _>(&contact, slot, slots, flow, &Vector::zeros())
+    }
+
+    fn near<const LEDGER: bool>(&self, slot: usize, block: &mut Block<M::History>, loads: &mut [Load]) {
+        let near = block.near.candidates[slot];
+        let (particle, body) = (near.particle as usize, &self.bodies[near.body as usize]);
+        let (place, motion) = (&self.place[particle], &self.motion[particle]);
+        block.body_forces[slot] = Vector::zeros();
+        let Some(mut geometry) = body.geometry(place.position, place.radius) else { return };
+        if let (BodyShape::Plane { .. }, Some(factor)) = (body.shape, self.plane_radius_factor) {
+            geometry.radius_j = factor * geometry.radius_i;
+        }
+        let Some(properties) = &self.table[motion.material as usize * self.materials + body.material] else { return };
+        let velocity = motion.velocity - body.velocity;
+        let masses = [motion.mass, f64::INFINITY];
+        let contact = contact(properties, geometry, masses, velocity, [motion.angular_velocity, Vector::zeros()]);
+        let slots: &mut Slots<Near, M::History> = &mut block.near;
+        if let Some(action) = self.evaluate::<LEDGER, _>(&contact, slot, slots, &mut block.flow, &body.velocity) {
+            push(&mut loads[particle - block.first], action.force, action.torque_i);
+            block.body_forces[slot] = action.force;
+        }
+    }
+
+    /// Evaluates a contact if it lives; `wall` is the velocity of its body [m/s].
+    #[inline(always)]
+    fn evaluate<const LEDGER: bool, C>(
+        &self,
+        contact: &Contact,
+        slot: usize,
+        slots: &mut Slots<C, M::History>,
+        flow: &mut Flow,
+        wall: &Vector,
+    ) -> Option<Action> {
+        let history = &mut slots.history[slot];
+        let alive = self.model.alive(contact.geometry.overlap, history);
+        slots.alive[slot] = alive;
+        let action = if alive {
+            Some(self.model.evaluate(contact, self.shared, self.elapsed, history))
+        } else {
+            *history = M::History::default();
+            None
+        };
+        if LEDGER {
+            account(contact, action.as_ref(), &mut slots.accounts[slot], flow, self.elapsed, wall);
+        }
+        action
+    }
+}
+
+#[inline(always)]
+fn push(load: &mut Load, force: Vector, torque: Vector) {
+    load.force += force;
+    load.torque += torque;
+}
+
+#[inline(always)]
+fn contact(
+    pair: &PairProperties,
+    geometry: ContactGeometry,
+    masses: [f64; 2],
+    velocity: Vector,
+    angular: [Vector; 2],
+) -> Contact {
+    let [mass_i, mass_j] = masses;
+    let mass = if mass_j.is_finite() { material::reduced(mass_i, mass_j) } else { mass_i };
+    let pair = pair.law(geometry.effective_radius(), mass);
+    Contact { pair, geometry, velocity, angular_i: angular[0], angular_j: angular[1], masses }
+}
+
+/// Work of the last step, from the forces at its two ends and the velocity between.
+fn account(
+    contact: &Contact,
+    action: Option<&Action>,
+    account: &mut Account,
+    flow: &mut Flow,
+    elapsed: f64,
+    wall: &Vector,
+) {
+    let now = action.map_or_else(Account::default, |action| Account {
+        force: action.force,
+        normal_force: action.normal.force,
+        damping_force: action.normal.force - action.normal.elastic,
+        energy: action.normal.energy + action.springs,
+        springs: action.springs,
+    });
+    if let Some(action) = action {
+        flow.losses = flow.losses + action.losses;
+    } else {
+        // A spring that is dropped with its contact.
+        flow.losses.carried += account.springs;
+    }
+    let velocity = contact.approach().normal_velocity;
+    let mean = |now: f64, then: f64| 0.5 * (now + then);
+    flow.dissipated += mean(now.damping_force, account.damping_force) * velocity * elapsed;
+    flow.entered += (mean(now.normal_force, account.normal_force) * velocity * elapsed).max(0.0);
+    flow.body_work += 0.5 * (now.force + account.force).dot(wall) * elapsed;
+    *account = now;
+}
