@@ -12,7 +12,10 @@ from cross_check.mirror_options import Mirror, mirror_from_json, mirror_to_json,
 
 __all__ = [
     "Body",
+    "Course",
     "Domain",
+    "Drive",
+    "Leg",
     "Material",
     "Mirror",
     "Model",
@@ -109,6 +112,35 @@ class Particle:
 
 
 @dataclass(frozen=True)
+class Course:
+    """What multiplies the velocities of a leg: `constant`, or `sinusoid` with a `frequency` [Hz], which is a cosine."""
+
+    kind: str
+    frequency: float | None = None
+
+
+@dataclass(frozen=True)
+class Leg:
+    """One stage of a path (`src/path.rs`): place at its beginning [m], velocities [m/s, rad/s], rotation about a point."""
+
+    steps: int
+    position: Vector
+    velocity: Vector
+    angular_velocity: Vector
+    course: Course
+    rotation: Vector
+    point: Vector
+
+
+@dataclass(frozen=True)
+class Drive:
+    """The path of a driven particle: its index and one leg per stage of the case."""
+
+    particle: int
+    legs: tuple[Leg, ...]
+
+
+@dataclass(frozen=True)
 class Scene:
     """One runnable problem with nothing left to resolve."""
 
@@ -129,6 +161,7 @@ class Scene:
     mirror: Mirror
     bodies: tuple[Body, ...]
     particles: tuple[Particle, ...]
+    drives: tuple[Drive, ...] = ()
 
     @property
     def name(self) -> str:
@@ -150,6 +183,10 @@ class Scene:
         raw["pairs"] = [_pair_to_json(pair) for pair in self.pairs]
         raw["model"] = _model_to_json(self.model)
         raw["mirror"] = mirror_to_json(self.mirror)
+        if self.drives:
+            raw["drives"] = [_drive_to_json(drive) for drive in self.drives]
+        else:
+            del raw["drives"]
         return json.dumps(raw, sort_keys=True)
 
     def digest(self) -> str:
@@ -176,6 +213,22 @@ def _model_to_json(model: Model) -> dict[str, Any]:
         parts = {name: variant_to_json(raw["moments"][name]) for name in ("stiffness", "dashpot", "twisting")}
         raw["moments"] |= parts
     return raw
+
+
+def _drive_to_json(drive: Drive) -> dict[str, Any]:
+    raw = asdict(drive)
+    for leg in raw["legs"]:
+        leg["course"] = variant_to_json(leg["course"])
+    return raw
+
+
+def _drive(item: dict[str, Any]) -> Drive:
+    vectors = ("position", "velocity", "angular_velocity", "rotation", "point")
+    legs = [
+        Leg(steps=leg["steps"], course=Course(**leg["course"]), **{name: _vector(leg[name]) for name in vectors})
+        for leg in item["legs"]
+    ]
+    return Drive(item["particle"], tuple(legs))
 
 
 def _vector(raw: list[float]) -> Vector:
@@ -224,5 +277,6 @@ def from_json(raw: dict[str, Any]) -> Scene:
         "mirror": mirror_from_json(raw["mirror"]),
         "bodies": tuple(_body(item) for item in raw["bodies"]),
         "particles": tuple(_particle(item) for item in raw["particles"]),
+        "drives": tuple(_drive(item) for item in raw.get("drives", [])),
     }
     return Scene(**{**raw, **typed})

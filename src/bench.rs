@@ -137,6 +137,7 @@ impl Bed {
             pairs: vec![self.pair(friction)],
             particles: self.particles(),
             bodies: Vec::new(),
+            paths: Vec::new(),
             plane_radius_factor: None,
             start: Start::Synchronized,
             ledger: false,

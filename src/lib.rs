@@ -18,6 +18,7 @@
 //! | [`case`] | the case file (the schema) and its expansion into scenes |
 //! | [`material`] | materials and the only place of mixing rules |
 //! | [`particles`], [`bodies`], [`domain`] | what moves: particles, walls; the box |
+//! | [`path`] | prescribed paths of driven particles |
 //! | [`geometry`], [`laws`] | contact geometry and contact laws |
 //! | [`neighbors`], [`contacts`] | who may touch, and what contacts remember |
 //! | [`simulation`] | one step: motion, sweep over contacts |
@@ -46,6 +47,7 @@ pub mod material;
 pub mod neighbors;
 pub mod observables;
 pub mod particles;
+pub mod path;
 pub mod record;
 pub mod simulation;
 

@@ -1,6 +1,7 @@
 //! One step is the passes in order, nothing else: move the particles, rebuild the neighbour list if it is stale, sweep
 //! over the contacts, gather.
 
+mod drive;
 mod motion;
 pub mod run;
 mod state;
@@ -17,7 +18,9 @@ use crate::material::PairProperties;
 use crate::neighbors::Neighbors;
 use crate::observables::energy::Ledger;
 use crate::particles::Particles;
+use crate::path::Path;
 
+use drive::Driver;
 pub use run::{Checkpoints, Options, run};
 
 /// Skin of the neighbour list, as a share of the smallest radius.
@@ -42,6 +45,8 @@ pub struct Setup {
     pub particles: Vec<SceneParticle>,
     /// Walls.
     pub bodies: Vec<Body>,
+    /// Paths of driven particles.
+    pub paths: Vec<Path>,
     /// A plane acts like a sphere whose radius is this multiple of the particle's.
     pub plane_radius_factor: Option<f64>,
     /// Where velocities start.
@@ -65,6 +70,7 @@ impl Setup {
             pairs: scene.pairs.clone(),
             particles: scene.particles.clone(),
             bodies: scene.bodies.iter().map(Body::new).collect(),
+            paths: scene.drives.iter().map(|drive| Path::new(drive, scene.time_step)).collect(),
             plane_radius_factor: scene.mirror.plane_radius_factor,
             start: scene.mirror.start,
             ledger: true,
@@ -91,6 +97,9 @@ impl Setup {
     }
 
     fn check(&self) -> Result<(), Error> {
+        if let Some(path) = self.paths.iter().find(|path| path.particle as usize >= self.particles.len()) {
+            return Err(self.refuse(format!("path of particle {}: there are {}", path.particle, self.particles.len())));
+        }
         if self.particles.len() >= contacts::MOST {
             return Err(self.refuse(format!("{} particles, at most {}", self.particles.len(), contacts::MOST - 1)));
         }
@@ -119,6 +128,7 @@ pub struct Simulation<M: ContactModel> {
     domain: Domain,
     particles: Particles,
     bodies: Vec<Body>,
+    drivers: Vec<Driver>,
     neighbors: Neighbors,
     contacts: Contacts<M::History>,
     ledger: Ledger,
@@ -156,6 +166,7 @@ impl<M: ContactModel> Simulation<M> {
             domain: setup.domain.clone(),
             particles: Particles::new(&setup.particles),
             bodies: setup.bodies.clone(),
+            drivers: setup.paths.iter().cloned().map(Driver::new).collect(),
             neighbors: Neighbors::new(skin, model.reach()),
             contacts: Contacts::default(),
             ledger: Ledger::default(),
@@ -174,8 +185,10 @@ impl<M: ContactModel> Simulation<M> {
                 motion.velocity -= self.gravity * (0.5 * self.time_step);
             }
         }
+        self.drive(0);
         self.forces(0.0);
         self.arrive();
+        self.hold();
     }
 
     /// Goes on to `step`, where loads are complete and velocities as the scheme stores them.
@@ -185,6 +198,7 @@ impl<M: ContactModel> Simulation<M> {
     pub fn advance_to(&mut self, step: u64) -> Result<(), Error> {
         if self.step < step {
             self.depart();
+            self.drive(self.step + 1);
         }
         while self.step < step {
             for body in &mut self.bodies {
@@ -197,8 +211,12 @@ impl<M: ContactModel> Simulation<M> {
             self.forces(self.time_step);
             if self.step < step {
                 self.arrive_and_depart();
+                self.account_drives();
+                self.drive(self.step + 1);
             } else {
                 self.arrive();
+                self.account_drives();
+                self.hold();
             }
         }
         Ok(())
@@ -308,7 +326,8 @@ impl<M: ContactModel> Simulation<M> {
     /// The energies at the present step.
     pub fn energies(&mut self) -> Ledger {
         let ahead = if self.start == Start::Staggered { 0.5 * self.time_step } else { 0.0 };
-        self.ledger.measure(&self.particles, &self.contacts, &self.gravity, ahead);
+        let driven: Vec<u32> = self.drivers.iter().map(|driver| driver.path.particle).collect();
+        self.ledger.measure(&self.particles, &driven, &self.contacts, &self.gravity, ahead);
         self.ledger
     }
 }

@@ -257,18 +257,21 @@ pub enum Action {
         /// Where they come from.
         particles: ParticleSource,
     },
-    /// For the stage, drives one particle along a path and holds all others: one contact along a prescribed path.
+    /// Drives one particle along a prescribed path for the stage. A particle that any stage drives is driven in all of
+    /// them, whatever acts on it: it starts at rest, and rests in stages that do not mention it.
     Drive {
         /// Index of the driven particle.
         particle: u32,
-        /// Velocity, in the frame that turns with the configuration [m/s].
+        /// Velocity, in a frame that lies along the axes when the stage begins and then turns with the rotation [m/s].
         velocity: [Speed; 3],
-        /// Angular velocity, in that frame [rad/s].
+        /// Angular velocity, in that frame; the rotation comes on top of it [rad/s].
         angular_velocity: [AngularSpeed; 3],
         /// What multiplies the two velocities as time goes on.
         course: Course,
-        /// Rotation of the whole configuration about the origin, from the beginning of the stage [rad/s].
+        /// Rotation of the particle and its path, from the beginning of the stage [rad/s].
         rotation: [AngularSpeed; 3],
+        /// A point of the axis of the rotation [m].
+        point: [Length; 3],
     },
 }
 

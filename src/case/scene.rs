@@ -1,5 +1,6 @@
 //! Scenes: one runnable problem with nothing left to resolve (docs/formats.md).
 
+mod drives;
 mod duration;
 mod mirror;
 mod specification;
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub use mirror::{Mirror, Start};
 
 use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
-use super::protocol::{Motion, Shape};
+use super::protocol::{Course, Motion, Shape};
 use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Level};
 use super::source::ParticleSource;
@@ -49,6 +50,8 @@ pub struct Scene {
     pub mirror: Mirror,
     pub bodies: Vec<SceneBody>,
     pub particles: Vec<SceneParticle>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drives: Vec<SceneDrive>,
 }
 
 /// The box of a scene [m].
@@ -132,6 +135,29 @@ pub struct SceneParticle {
     pub angular_velocity: [f64; 3],
 }
 
+/// The path of a driven particle: one leg per stage of the case.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneDrive {
+    pub particle: usize,
+    pub legs: Vec<SceneLeg>,
+}
+
+/// One stage of a path (`src/path.rs`).
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneLeg {
+    pub steps: u64,
+    pub position: [f64; 3],
+    pub velocity: [f64; 3],
+    pub angular_velocity: [f64; 3],
+    pub course: Course,
+    pub rotation: [f64; 3],
+    pub point: [f64; 3],
+}
+
 impl Scene {
     /// `case/variant`.
     #[must_use]
@@ -178,6 +204,7 @@ pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Pro
         mirror: Mirror::default(),
         bodies: Vec::new(),
         particles: Vec::new(),
+        drives: Vec::new(),
     };
     scene.pairs = pairs(case, &scene.materials);
     scene.bodies = bodies(case);
@@ -186,8 +213,10 @@ pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Pro
     drop_unused_materials(&mut scene);
     let laws = scene.model.specification(&scene.mirror)?;
     let approaches = approaches(case, &scene)?;
-    duration::steps(case, &mut scene, &laws.normal, &approaches)?;
+    let stages = duration::steps(case, &mut scene, &laws.normal, &approaches)?;
     duration::travel(&scene)?;
+    scene.drives = drives::resolve(case, &scene, &stages)?;
+    drives::check(case, &scene)?;
     Ok(scene)
 }
 

@@ -29,7 +29,7 @@ pub struct Ledger {
     /// Energy that loaded springs lost since the start as their stiffness changed, as they turned, and with contacts that
     /// opened.
     pub carried: f64,
-    /// Work of moving bodies on the particles since the start.
+    /// Work of moving bodies and of driven particles on the others and on contacts since the start.
     pub body_work: f64,
     /// Energy that entered contacts since the start, the scale of the residual.
     pub entered: f64,
@@ -51,10 +51,18 @@ impl Ledger {
     }
 
     /// Measures the energies of a state whose velocities are ahead of the positions by `ahead` [s].
-    pub fn measure<H: Memory>(&mut self, particles: &Particles, contacts: &Contacts<H>, gravity: &Vector, ahead: f64) {
+    /// Driven particles are moved from outside, like bodies: their motion is not part of the balance.
+    pub fn measure<H: Memory>(
+        &mut self,
+        particles: &Particles,
+        driven: &[u32],
+        contacts: &Contacts<H>,
+        gravity: &Vector,
+        ahead: f64,
+    ) {
         self.kinetic = 0.0;
         self.gravity = 0.0;
-        for i in 0..particles.len() {
+        for i in (0..particles.len()).filter(|at| !driven.contains(&particles.motion[*at].id)) {
             let (motion, load) = (&particles.motion[i], &particles.load[i]);
             let inertia = particles.moment_of_inertia[i];
             let velocity = motion.velocity - (load.force / motion.mass + gravity) * ahead;

@@ -140,6 +140,7 @@ impl<M: ContactModel> Simulation<M> {
         for (index, body) in self.bodies.iter_mut().enumerate() {
             (body.point, body.velocity, body.force) = (point[index], velocity[index], force[index]);
         }
+        self.resume_drives();
     }
 
     /// Gives living contacts back what they remember; false if one has no slot.

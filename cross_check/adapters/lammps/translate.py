@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from cross_check.adapters import capability
+from cross_check.adapters import capability, paths
 from cross_check.adapters.capability import AXES, Plane
 from cross_check.adapters.dump import HISTORY, PARTICLES, STATE
 from cross_check.adapters.interface import Deck, NotComparable, Row
@@ -81,6 +81,9 @@ def deck(scene: Scene) -> Deck:
     capability.check(scene)
     if len(_kinds(scene)) > MOST_MATERIALS:
         raise NotComparable(f"{len(_kinds(scene))} materials of particles, LAMMPS has groups for {MOST_MATERIALS}")
+    if scene.drives and len(_kinds(scene)) + len(scene.drives) + 1 > MOST_MATERIALS:
+        raise NotComparable(f"{len(scene.drives)} driven particles, LAMMPS has {MOST_MATERIALS} groups")
+    paths.constant_spins(scene, "LAMMPS")
     laws.check(scene)
     pairs = capability.touching(scene)
     walls = _walls(scene)
@@ -90,6 +93,7 @@ def deck(scene: Scene) -> Deck:
     rows += [row for pair in pairs for row in laws.pair_rows(scene, pair)]
     rows += laws.model_rows(scene)
     rows += [row for wall in walls for row in wall.rows]
+    rows += paths.rows(scene, "fix move variable")
     rows.append(Row("particles[*].radius", "below", "diameter", "below", "m", "2 R"))
     rows.append(Row("particles[*].mass", "below", "mass", "below", "kg", "as stated"))
     return Deck("lammps", scene, {MAIN: _text(scene, rows, pairs, walls)}, MAIN, rows)
@@ -149,6 +153,8 @@ def _text(scene: Scene, rows: list[Row], pairs: Sequence[Pair], walls: Sequence[
             "walls": [{"name": word(wall.plane.name), "commands": wall.commands} for wall in walls],
             "gravity": number(magnitude),
             "direction": numbers(direction),
+            "stages": paths.move_stages(scene),
+            "free": bool(paths.free(scene)),
             "every": scene.output_every,
             "steps": scene.steps,
             "history_file": HISTORY,

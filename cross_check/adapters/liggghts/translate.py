@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cross_check.adapters import capability
+from cross_check.adapters import capability, paths
 from cross_check.adapters.dump import HISTORY, PARTICLES, STATE
-from cross_check.adapters.interface import Deck, Row
+from cross_check.adapters.interface import Deck, NotComparable, Row
 from cross_check.adapters.liggghts import laws
 from cross_check.adapters.liggghts.walls import Wall, wall_of
 from cross_check.adapters.render import number, numbers, render, table, word
@@ -16,11 +16,16 @@ MAIN = "scene.in"
 # Up to this many particles the neighbour list is found without bins, whose number a large domain would drive too high
 # (meshes need bins).
 WITHOUT_BINS = 64
+# LIGGGHTS has 32 groups, one of them is `all`.
+MOST_GROUPS = 31
 
 
 def deck(scene: Scene) -> Deck:
     """The LIGGGHTS deck of `scene`. Raises NotComparable or InvalidScene with the reason."""
     capability.check(scene)
+    if len(scene.drives) + 1 > MOST_GROUPS:
+        raise NotComparable(f"{len(scene.drives)} driven particles, LIGGGHTS has {MOST_GROUPS} groups")
+    paths.constant_spins(scene, "LIGGGHTS")
     words = laws.words(scene)
     walls = [wall_of(plane, scene.domain, words.model, words.settings) for plane in capability.planes(scene)]
     magnitude, direction = capability.gravity(scene)
@@ -28,6 +33,7 @@ def deck(scene: Scene) -> Deck:
     rows = capability.shared_rows(scene, "timestep", ("fix gravity", weight, "magnitude and direction"))
     rows += words.material_rows + words.model_rows
     rows += [row for wall in walls for row in wall.rows]
+    rows += paths.rows(scene, "fix move variable")
     rows.append(Row("particles[*].radius", "below", "diameter", "below", "m", "2 R"))
     rows.append(Row("particles[*].mass", "below", "mass", "below", "kg", "as stated"))
     files = {MAIN: _text(scene, rows, words, walls)}
@@ -74,6 +80,8 @@ def _text(scene: Scene, rows: list[Row], words: laws.Words, walls: list[Wall]) -
             "walls": walls,
             "gravity": number(magnitude),
             "direction": numbers(direction),
+            "stages": paths.move_stages(scene),
+            "free": bool(paths.free(scene)),
             "every": scene.output_every,
             "steps": scene.steps,
             "history_file": HISTORY,

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cross_check.adapters import capability
+from cross_check.adapters import capability, paths
 from cross_check.adapters.capability import AXES, Plane
 from cross_check.adapters.interface import Deck, NotComparable, Row
 from cross_check.adapters.render import number, render, table, word
@@ -37,8 +37,10 @@ def _vector(values: Vector) -> str:
     return f"({number(values[0])}, {number(values[1])}, {number(values[2])})"
 
 
-def _velocity(scene: Scene, particle: Particle) -> Vector:
-    """Velocity [m/s] half a step before the start, which gravity alone makes v0 at the start."""
+def _velocity(scene: Scene, index: int, particle: Particle) -> Vector:
+    """Velocity [m/s] half a step before the start, which gravity alone makes v0 at the start; driven ones rest."""
+    if any(drive.particle == index for drive in scene.drives):
+        return particle.velocity
     half = 0.5 * scene.time_step
     (x, y, z), (gx, gy, gz) = particle.velocity, scene.gravity
     return (x - gx * half, y - gy * half, z - gz * half)
@@ -63,6 +65,7 @@ def deck(scene: Scene) -> Deck:
     rows = capability.shared_rows(scene, "O.dt", ("NewtonIntegrator gravity", _vector(scene.gravity), "as stated"))
     rows += words.material_rows + words.model_rows
     rows += [row for plane in planes for row in _wall_rows(plane)]
+    rows += paths.rows(scene, "state.pos, vel, angVel")
     rows.append(Row("particles[*].velocity", "below", "state.vel", "below", "m/s", "v(-1/2) = v0 - g dt/2"))
     rows.append(Row("particles[*].mass", "below", "state.mass", "below", "kg", "as stated"))
     return Deck("yade", scene, {MAIN: _text(scene, rows, words, planes)}, MAIN, rows)
@@ -84,10 +87,13 @@ def _text(scene: Scene, rows: list[Row], words: laws.Words, planes: list[Plane])
                     "mass": number(particle.mass),
                     "inertia": number(particle.moment_of_inertia),
                     "position": _vector(particle.position),
-                    "velocity": _vector(_velocity(scene, particle)),
+                    "velocity": _vector(_velocity(scene, index, particle)),
                     "angular_velocity": _vector(particle.angular_velocity),
                 }
-                for particle in scene.particles
+                for index, particle in enumerate(scene.particles)
+            ],
+            "drives": [
+                {"index": drive.particle, "stages": paths.stages(scene, drive, paths.ZERO)} for drive in scene.drives
             ],
             "walls": [
                 {

@@ -1,5 +1,7 @@
 //! Stages with their actions, and what is measured in them.
 
+use std::collections::HashSet;
+
 use super::{Checker, is_name};
 use crate::case::measure::{Measure, Region};
 use crate::case::model::NormalLaw;
@@ -19,6 +21,7 @@ impl Checker<'_> {
             if let Some(output) = &stage.output {
                 self.every(format!("stages.{i}.output.every"), output.every);
             }
+            self.one_drive_each(i, &stage.actions);
             let timed = matches!(stage.end, End::Duration { .. } | End::Contacts { .. });
             for (j, action) in stage.actions.iter().enumerate() {
                 self.action(&format!("stages.{i}.actions.{j}"), action);
@@ -36,6 +39,18 @@ impl Checker<'_> {
             }
         }
         self.temperatures();
+    }
+
+    fn one_drive_each(&mut self, stage: usize, actions: &[Action]) {
+        let mut seen = HashSet::new();
+        for (j, action) in actions.iter().enumerate() {
+            if let Action::Drive { particle, .. } = action
+                && !seen.insert(particle)
+            {
+                let key = format!("stages.{stage}.actions.{j}.particle");
+                self.add(key, particle, "another action of this stage drives it; a particle has one path");
+            }
+        }
     }
 
     fn end(&mut self, at: &str, end: &End) {

@@ -12,8 +12,18 @@ pub const MOST_STEPS: f64 = 1e9;
 /// Most numbers of one record, 8 GB.
 const MOST_VALUES: f64 = 1e9;
 
-/// Chooses the time step and the number of steps.
-pub fn steps(case: &Case, scene: &mut Scene, law: &Normal, approaches: &[StartApproach]) -> Result<(), Problem> {
+/// A ratio of two lengths of time that is this near to a whole number is one: both come from decimal numbers.
+const WHOLE: f64 = 1e-9;
+
+/// Smallest whole number that is not below `ratio`, but for rounding.
+fn whole(ratio: f64) -> f64 {
+    let nearest = ratio.round();
+    if (ratio - nearest).abs() <= WHOLE * nearest { nearest } else { ratio.ceil() }
+}
+
+/// Chooses the time step and the number of steps, and returns the steps of every stage. A stage lasts a whole number of
+/// samples.
+pub fn steps(case: &Case, scene: &mut Scene, law: &Normal, approaches: &[StartApproach]) -> Result<Vec<u64>, Problem> {
     let impact = approaches
         .iter()
         .map(|start| law.impact_duration(&start.law, start.speed))
@@ -39,34 +49,41 @@ pub fn steps(case: &Case, scene: &mut Scene, law: &Normal, approaches: &[StartAp
             format!("above the stability limit: the Rayleigh time of the smallest particle is {rayleigh:e} s");
         return Err(Problem::new(key, format!("{base} s"), allowed));
     }
-    let length = match &case.stages[0].end {
-        End::Duration { value } => value.si(),
-        End::Contacts { value } => {
-            value.get() * impact.map_err(|why| Problem::new("stages.0.end.value", value.get(), why))?
-        }
-        // Every other end is refused by name before.
-        _ => 0.0,
-    };
     let refined = f64::from(1u32 << scene.refinement);
     scene.time_step = base / refined;
     if !scene.time_step.is_normal() {
         return Err(Problem::new(key, format!("{base:e} s"), "a time step is a positive normal number"));
     }
-    let samples = (length / base / case.output.every as f64).ceil();
-    let steps = samples * case.output.every as f64 * refined;
-    if !(1.0..=MOST_STEPS).contains(&steps) {
-        let allowed = format!("makes {steps:e} steps of {:e} s, from 1 to {MOST_STEPS:e} are allowed", scene.time_step);
-        return Err(Problem::new("stages.0.end.value", format!("{length:e} s"), allowed));
+    let mut stages = Vec::new();
+    let (mut samples, mut values) = (0.0, 0.0);
+    for (i, stage) in case.stages.iter().enumerate() {
+        let key = format!("stages.{i}.end.value");
+        let length = match &stage.end {
+            End::Duration { value } => value.si(),
+            End::Contacts { value } => {
+                value.get() * impact.map_err(|why| Problem::new(&key, value.get(), why))?
+            }
+            // Every other end is refused by name before.
+            _ => 0.0,
+        };
+        let own = whole(length / base / case.output.every as f64);
+        samples += own;
+        let steps = own * case.output.every as f64 * refined;
+        if !(1.0..=MOST_STEPS).contains(&(samples * case.output.every as f64 * refined)) {
+            let allowed =
+                format!("makes {steps:e} steps of {:e} s, from 1 to {MOST_STEPS:e} are allowed", scene.time_step);
+            return Err(Problem::new(key, format!("{length:e} s"), allowed));
+        }
+        values += own * (16 * scene.particles.len() + 3 * scene.bodies.len() + 8) as f64;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST_STEPS")]
+        stages.push(steps as u64);
     }
-    let values = samples * (16 * scene.particles.len() + 3 * scene.bodies.len() + 8) as f64;
     if values > MOST_VALUES {
         let allowed = format!("makes a record of {values:e} values, at most {MOST_VALUES:e} are allowed");
         return Err(Problem::new("output.every", case.output.every, allowed));
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST_STEPS")]
-    let steps = steps as u64;
-    scene.steps = steps;
-    Ok(())
+    scene.steps = stages.iter().sum();
+    Ok(stages)
 }
 
 /// Nothing moves further than the smallest radius in one step at the start: contacts would be missed.

@@ -34,7 +34,7 @@ impl Scene {
             Ok(laws) => laws,
             Err(problem) => return Some(problem.to_string()),
         };
-        self.indices().or_else(|| self.numbers()).or_else(|| self.values(&laws)).or_else(|| self.missing_pair())
+        self.indices().or_else(|| self.numbers()).or_else(|| self.paths()).or_else(|| self.values(&laws)).or_else(|| self.missing_pair())
     }
 
     fn indices(&self) -> Option<String> {
@@ -80,6 +80,22 @@ impl Scene {
             // `+ 0.0` makes one zero of two.
             if !places.insert(particle.position.map(|coordinate| (coordinate + 0.0).to_bits())) {
                 return Some(format!("particles.{i}.position = {:?}: another particle is there", particle.position));
+            }
+        }
+        None
+    }
+
+    /// Every driven particle has one path, which lasts as long as the run.
+    fn paths(&self) -> Option<String> {
+        let mut seen = HashSet::new();
+        for (i, drive) in self.drives.iter().enumerate() {
+            if drive.particle >= self.particles.len() || !seen.insert(drive.particle) {
+                let count = self.particles.len();
+                return Some(format!("drives.{i}.particle = {}: one of {count} particles, each once", drive.particle));
+            }
+            let steps = drive.legs.iter().map(|leg| leg.steps).sum::<u64>();
+            if steps != self.steps {
+                return Some(format!("drives.{i}.legs: {steps} steps, the run has {}", self.steps));
             }
         }
         None
