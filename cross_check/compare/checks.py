@@ -50,11 +50,17 @@ class Bench:
         outcome = self.outcomes[source, refinement]
         if outcome.record is None:
             raise Undefined(outcome.verdict)
+        scene = self.law_scene(source) if self.quantity.of_law else outcome.scene
         if self.quantity.scalar is not None:
-            return self.quantity.scalar(outcome.scene, outcome.record)
+            return self.quantity.scalar(scene, outcome.record)
         if self.quantity.series is None:
             raise Undefined(f"{self.quantity.name} has no formula")
-        return outcome.record.step, self.quantity.series(outcome.scene, outcome.record)
+        return outcome.record.step, self.quantity.series(scene, outcome.record)
+
+    def law_scene(self, source: str) -> Scene:
+        """The scene with the options of the law that made the record of a source: a code's are those of its mirror."""
+        mirror = self.outcomes.get((mirror_name(source), 0))
+        return self.outcomes[source, 0].scene if mirror is None else mirror.scene
 
     def uncertainty(self, source: str) -> tuple[float | None, str]:
         """Time-step error of a scalar: twice the change when the step is halved, of the source or of its mirror."""
@@ -169,7 +175,7 @@ def _against_reference(bench: Bench) -> Iterator[Comparison]:
             yield bench.undecided(source, REFERENCE, str(why), name)
             continue
         if bench.quantity.scalar is not None:
-            target = float(form(bench.scene))
+            target = float(form(bench.law_scene(source) if bench.quantity.of_law else bench.scene))
             left, right = bench.side(source, value), Side(REFERENCE, target, 0.0, "closed form")
             discrepancy = _scaled(abs(value - target), bench.gate.scale, target)
             error = None if left.uncertainty is None else _scaled(left.uncertainty, bench.gate.scale, target)
