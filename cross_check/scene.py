@@ -121,7 +121,7 @@ class Course:
 
 @dataclass(frozen=True)
 class Leg:
-    """One stage of a path (`src/path.rs`): place at its beginning [m], velocities [m/s, rad/s], rotation about a point."""
+    """One stage of a path (`src/path.rs`): place at its beginning [m], velocities [m/s, rad/s], rotation and point."""
 
     steps: int
     position: Vector

@@ -16,6 +16,7 @@ from cross_check.scene import Drive, Leg, Scene, Vector
 ZERO: Vector = (0.0, 0.0, 0.0)
 # A factor and the function of the step that it multiplies; no name stands for 1.
 Factor = tuple[float, str]
+Term = tuple[Vector, list[Factor]]
 Formulas = tuple[str, str, str]
 
 
@@ -55,9 +56,9 @@ def constant_spins(scene: Scene, code: str) -> None:
 
 def rows(scene: Scene, code_key: str) -> list[Row]:
     """The translation of the paths."""
-    stated = "stages"
+    formula = "formulas of the step, stage by stage"
     return [
-        Row(f"drives.{drive.particle}", f"{len(drive.legs)} {stated}", code_key, "below", "m, m/s", "see below")
+        Row(f"drives.{drive.particle}", f"{len(drive.legs)} stages", code_key, "below", "m, m/s", formula)
         for drive in scene.drives
     ]
 
@@ -130,7 +131,7 @@ def _course(leg: Leg, first: int, dt: float) -> tuple[Factor, Factor, Factor]:
     )
 
 
-def _formulas(terms: list[tuple[Vector, list[Factor]]]) -> Formulas:
+def _formulas(terms: list[Term]) -> Formulas:
     """The sum of vectors times factors, axis by axis."""
 
     def axis(at: int) -> str:
@@ -171,7 +172,7 @@ def _stage(leg: Leg, first: int, dt: float, origin: Vector) -> Stage:
     cos_middle, sin_middle = (1.0, f"cos({pace}*{middle})"), (1.0, f"sin({pace}*{middle})")
     chord, tilt = (2.0 * math.sin(half) / dt, ""), (math.cos(half), "")
     back = (-2.0 * math.sin(half) / dt, "")
-    place = [
+    place: list[Term] = [
         (_minus(_plus(leg.point, arm_along), origin), []),
         (arm_across, [cos_end]),
         (arm_turned, [sin_end]),
@@ -179,7 +180,7 @@ def _stage(leg: Leg, first: int, dt: float, origin: Vector) -> Stage:
         (across, [integral, cos_end]),
         (turned, [integral, sin_end]),
     ]
-    velocity = [
+    velocity: list[Term] = [
         (arm_turned, [chord, cos_middle]),
         (arm_across, [back, sin_middle]),
         (turned, [chord, between, cos_middle]),
@@ -188,7 +189,7 @@ def _stage(leg: Leg, first: int, dt: float, origin: Vector) -> Stage:
         (across, [tilt, mean, cos_middle]),
         (turned, [tilt, mean, sin_middle]),
     ]
-    angular = [
+    angular: list[Term] = [
         (leg.rotation, []),
         (spin[0], [mean]),
         (spin[1], [mean, cos_middle]),

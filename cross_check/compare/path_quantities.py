@@ -43,14 +43,15 @@ def _rotated(vector: Array, angle: Array) -> Array:
     if size == 0.0:
         return vector
     axis = angle / size
-    along = axis * np.dot(axis, vector)
-    return along + (vector - along) * np.cos(size) + np.cross(axis, vector) * np.sin(size)
+    along: Array = axis * float(np.dot(axis, vector))
+    turned: Array = np.cross(axis, vector)
+    return along + (vector - along) * float(np.cos(size)) + turned * float(np.sin(size))
 
 
 def tangential_length_change(scene: Scene, record: RunRecord) -> float:
     """Change of the size of the tangential force over the last stage, over that size [-]."""
     before, after = _turned(scene, record)
-    return float(np.linalg.norm(after) / np.linalg.norm(before)) - 1.0
+    return float(np.linalg.norm(after)) / float(np.linalg.norm(before)) - 1.0
 
 
 def tangential_body_change(scene: Scene, record: RunRecord) -> float:
