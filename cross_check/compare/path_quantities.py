@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from cross_check.compare.quantity import Quantity, Undefined
@@ -45,7 +47,7 @@ def _rotated(vector: Array, angle: Array) -> Array:
     axis = angle / size
     along: Array = axis * float(np.dot(axis, vector))
     turned: Array = np.cross(axis, vector)
-    return along + (vector - along) * float(np.cos(size)) + turned * float(np.sin(size))
+    return along + (vector - along) * math.cos(size) + turned * math.sin(size)
 
 
 def tangential_length_change(scene: Scene, record: RunRecord) -> float:
