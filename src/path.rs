@@ -77,7 +77,7 @@ impl Path {
         }
     }
 
-    /// The leg of a step and the steps from its beginning; the first step of a leg is the first one that moves by it.
+    /// Index of the leg that moves the particle to `step`.
     #[must_use]
     pub fn leg_of(&self, step: u64) -> usize {
         self.ends.partition_point(|end| *end < step).min(self.legs.len().saturating_sub(1))

@@ -11,10 +11,11 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+pub use drives::{SceneDrive, SceneLeg};
 pub use mirror::{Mirror, Start};
 
 use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
-use super::protocol::{Course, Motion, Shape};
+use super::protocol::{Motion, Shape};
 use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Level};
 use super::source::ParticleSource;
@@ -133,29 +134,6 @@ pub struct SceneParticle {
     pub position: [f64; 3],
     pub velocity: [f64; 3],
     pub angular_velocity: [f64; 3],
-}
-
-/// The path of a driven particle: one leg per stage of the case.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "docs/formats.md describes every field")]
-pub struct SceneDrive {
-    pub particle: usize,
-    pub legs: Vec<SceneLeg>,
-}
-
-/// One stage of a path (`src/path.rs`).
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "docs/formats.md describes every field")]
-pub struct SceneLeg {
-    pub steps: u64,
-    pub position: [f64; 3],
-    pub velocity: [f64; 3],
-    pub angular_velocity: [f64; 3],
-    pub course: Course,
-    pub rotation: [f64; 3],
-    pub point: [f64; 3],
 }
 
 impl Scene {

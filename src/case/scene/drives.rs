@@ -1,6 +1,8 @@
 //! Driven particles: the legs of their paths, and where the paths lead.
 
-use super::{Scene, SceneDrive, SceneLeg, SceneMotion, si};
+use serde::{Deserialize, Serialize};
+
+use super::{Scene, SceneMotion, si};
 use crate::Vector;
 use crate::bodies::Body;
 use crate::case::protocol::{Action, Course, Stage};
@@ -11,6 +13,29 @@ use crate::path::{Leg, Path};
 
 /// Most places of a path that are looked at.
 const LOOKS: u64 = 1_000_000;
+
+/// The path of a driven particle: one leg per stage of the case.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneDrive {
+    pub particle: usize,
+    pub legs: Vec<SceneLeg>,
+}
+
+/// One stage of a path (`src/path.rs`).
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneLeg {
+    pub steps: u64,
+    pub position: [f64; 3],
+    pub velocity: [f64; 3],
+    pub angular_velocity: [f64; 3],
+    pub course: Course,
+    pub rotation: [f64; 3],
+    pub point: [f64; 3],
+}
 
 /// One leg per stage for every particle that any stage drives; `stages` are the steps of the stages.
 pub fn resolve(case: &Case, scene: &Scene, stages: &[u64]) -> Result<Vec<SceneDrive>, Problem> {
@@ -80,17 +105,23 @@ pub fn check(case: &Case, scene: &Scene) -> Result<(), Problem> {
                 scene.bodies.iter().try_for_each(|body| above(scene, path, body, step))
             });
             found.map_err(|(value, allowed)| {
-                let stage = path.leg_of(step);
-                let mut actions = case.stages[stage].actions.iter();
-                let key = match actions.position(|action| particle(action) == Some(path.particle as usize)) {
-                    Some(action) => format!("stages.{stage}.actions.{action}.velocity"),
-                    None => format!("stages.{stage}.name"),
-                };
+                let key = stated_by(case, path, step);
                 Problem::new(key, value, format!("particle {} at step {step}: {allowed}", path.particle))
             })?;
         }
     }
     Ok(())
+}
+
+/// The key that moves a particle at a step, or another one if it rests in that stage.
+fn stated_by(case: &Case, path: &Path, step: u64) -> String {
+    let stage = path.leg_of(step);
+    let driven: Vec<Option<usize>> = case.stages[stage].actions.iter().map(particle).collect();
+    let own = driven.iter().position(|driven| *driven == Some(path.particle as usize));
+    match own.or_else(|| driven.iter().position(Option::is_some)) {
+        Some(action) => format!("stages.{stage}.actions.{action}.velocity"),
+        None => format!("stages.{stage}.name"),
+    }
 }
 
 /// What is wrong, and what is allowed.

@@ -60,9 +60,7 @@ pub fn steps(case: &Case, scene: &mut Scene, law: &Normal, approaches: &[StartAp
         let key = format!("stages.{i}.end.value");
         let length = match &stage.end {
             End::Duration { value } => value.si(),
-            End::Contacts { value } => {
-                value.get() * impact.map_err(|why| Problem::new(&key, value.get(), why))?
-            }
+            End::Contacts { value } => value.get() * impact.map_err(|why| Problem::new(&key, value.get(), why))?,
             // Every other end is refused by name before.
             _ => 0.0,
         };

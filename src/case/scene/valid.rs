@@ -34,7 +34,11 @@ impl Scene {
             Ok(laws) => laws,
             Err(problem) => return Some(problem.to_string()),
         };
-        self.indices().or_else(|| self.numbers()).or_else(|| self.paths()).or_else(|| self.values(&laws)).or_else(|| self.missing_pair())
+        self.indices()
+            .or_else(|| self.numbers())
+            .or_else(|| self.paths())
+            .or_else(|| self.values(&laws))
+            .or_else(|| self.missing_pair())
     }
 
     fn indices(&self) -> Option<String> {
