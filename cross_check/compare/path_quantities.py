@@ -59,7 +59,8 @@ def tangential_length_change(scene: Scene, record: RunRecord) -> float:
 def tangential_body_change(scene: Scene, record: RunRecord) -> float:
     """Size of the change of the tangential force in the turning frame over the last stage, over its size [-]."""
     before, after = _turned(scene, record)
-    return float(np.linalg.norm(after - before) / np.linalg.norm(before))
+    change: Array = after - before
+    return float(np.linalg.norm(change)) / float(np.linalg.norm(before))
 
 
 QUANTITIES = (
