@@ -1,6 +1,7 @@
 //! The time step and the number of steps of a scene.
 
-use super::{Scene, SceneMotion, StartApproach};
+use super::approach::StartApproach;
+use super::{Scene, SceneMotion};
 use crate::Vector;
 use crate::case::protocol::End;
 use crate::case::schema::{Case, TimeStep};
