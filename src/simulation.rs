@@ -21,7 +21,7 @@ use crate::particles::Particles;
 pub use run::{Checkpoints, Options, run};
 
 /// Skin of the neighbour list, as a share of the smallest radius.
-const SKIN: f64 = 0.25;
+pub const SKIN: f64 = 0.25;
 
 /// Everything that a simulation starts from.
 #[derive(Clone, Debug)]
@@ -308,7 +308,7 @@ impl<M: ContactModel> Simulation<M> {
     /// The energies at the present step.
     pub fn energies(&mut self) -> Ledger {
         let ahead = if self.start == Start::Staggered { 0.5 * self.time_step } else { 0.0 };
-        self.ledger.measure(&self.particles, &self.contacts, &self.gravity, ahead);
+        self.ledger.measure(&self.particles, &self.domain, &self.contacts, &self.gravity, ahead);
         self.ledger
     }
 }
