@@ -3,7 +3,9 @@
 mod approach;
 mod bodies;
 mod duration;
+mod insertion;
 mod particles;
+mod random;
 mod supported;
 mod valid;
 
@@ -125,10 +127,19 @@ pub struct SceneParticle {
 }
 
 impl Scene {
-    /// `case/variant`.
+    /// `case/variant/seed=1`, without the parts that the case does not have.
     #[must_use]
     pub fn name(&self) -> String {
-        if self.variant.is_empty() { self.case.clone() } else { format!("{}/{}", self.case, self.variant) }
+        let member = self.member();
+        if member.is_empty() { self.case.clone() } else { format!("{}/{member}", self.case) }
+    }
+
+    /// `variant/seed=1`: which of the scenes of its case it is.
+    #[must_use]
+    pub fn member(&self) -> String {
+        let seed = self.seed.map(|seed| format!("seed={seed}"));
+        let parts = [Some(self.variant.clone()).filter(|variant| !variant.is_empty()), seed];
+        parts.into_iter().flatten().collect::<Vec<_>>().join("/")
     }
 
     /// The pair of two materials, if it is stated.
@@ -142,17 +153,17 @@ fn si<K: Kind, const N: usize>(values: &[Quantity<K>; N]) -> [f64; N] {
     values.map(Quantity::si)
 }
 
-/// Resolves one variant into a scene whose time step is divided by 2^`refinement`.
+/// Resolves one variant, and one seed of its ensemble, into a scene whose time step is divided by 2^`refinement`.
 ///
 /// # Errors
 /// The case asks for what this build does not compute, or its start state or time step is not allowed.
-pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Problem> {
+pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -> Result<Scene, Problem> {
     supported::supported(case)?;
     let mut scene = Scene {
         schema: SCHEMA,
         case: case.name.clone(),
         variant: variant.to_owned(),
-        seed: None,
+        seed,
         refinement,
         level: case.level,
         time_step: 0.0,
@@ -169,12 +180,13 @@ pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Pro
     };
     scene.pairs = pairs(case, &scene.materials);
     scene.bodies = bodies::bodies(case);
-    scene.particles = case.particles.iter().filter_map(|source| particles::single(case, source)).collect();
-    particles::weighable(&scene)?;
+    let origins = particles::place(case, &mut scene)?;
+    particles::weighable(case, &scene, &origins)?;
+    valid::room(case, &scene)?;
     drop_unused_materials(&mut scene);
-    let approaches = approach::approaches(case, &scene)?;
-    duration::steps(case, &mut scene, &approaches)?;
-    duration::travel(&scene)?;
+    approach::overlaps(case, &scene, &origins)?;
+    duration::steps(case, &mut scene)?;
+    duration::travel(case, &scene, &origins)?;
     Ok(scene)
 }
 
