@@ -44,6 +44,8 @@ pub struct Setup {
     pub bodies: Vec<Body>,
     /// A plane acts like a sphere whose radius is this multiple of the particle's.
     pub plane_radius_factor: Option<f64>,
+    /// Share of its curvature that a cylinder has in R*.
+    pub cylinder_curvature: Option<f64>,
     /// Where velocities start.
     pub start: Start,
     /// Whether an energy ledger is kept; trajectories do not depend on it.
@@ -66,6 +68,7 @@ impl Setup {
             particles: scene.particles.clone(),
             bodies: scene.bodies.iter().map(Body::new).collect(),
             plane_radius_factor: scene.mirror.plane_radius_factor,
+            cylinder_curvature: scene.mirror.cylinder_curvature,
             start: scene.mirror.start,
             ledger: true,
             skin: None,
@@ -114,6 +117,7 @@ pub struct Simulation<M: ContactModel> {
     start: Start,
     ledger_kept: bool,
     plane_radius_factor: Option<f64>,
+    cylinder_curvature: Option<f64>,
     materials: usize,
     table: Vec<Option<PairProperties>>,
     domain: Domain,
@@ -151,6 +155,7 @@ impl<M: ContactModel> Simulation<M> {
             start: setup.start,
             ledger_kept: setup.ledger,
             plane_radius_factor: setup.plane_radius_factor,
+            cylinder_curvature: setup.cylinder_curvature,
             materials: setup.materials,
             table: setup.table()?,
             domain: setup.domain.clone(),

@@ -105,20 +105,28 @@ fn two_particles_collide_across_a_face_as_they_do_inside() {
 #[test]
 fn a_sphere_in_a_cylinder_is_stiffened_by_its_curvature() {
     let mut scene = good("cylinder.toml");
+    (scene.time_step, scene.steps) = (scene.time_step / 20.0, scene.steps * 20);
     scene.pairs.iter_mut().for_each(|pair| pair.damping_ratio = 0.0);
     let SceneShape::Cylinder { radius: bore, .. } = scene.bodies[0].shape else { unreachable!() };
     let particle = &scene.particles[0];
     let speed = particle.velocity[0].hypot(particle.velocity[1]);
     // Hertz: the greatest overlap of m v^2 / 2 = (8/15) E* sqrt(R*) d^(5/2), at which F = (4/3) E* sqrt(R*) d^(3/2).
-    let effective = particle.radius * bore / (bore - particle.radius);
-    let stiffness = scene.pairs[0].effective_young * effective.sqrt();
-    let overlap = (15.0 * particle.mass * speed * speed / (16.0 * stiffness)).powf(0.4);
-    let expected = 4.0 / 3.0 * stiffness * overlap.powf(1.5);
-    (scene.time_step, scene.steps) = (scene.time_step / 20.0, scene.steps * 20);
-    let record = run(&scene);
-    let forces = track(&record, "force", 0, 1);
-    let peak = forces.iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
-    // Second order in the time step, 2,000 to the contact; sampled every step.
-    assert!((peak / expected - 1.0).abs() < 1e-5, "{peak} and {expected} N");
-    assert!(forces.iter().all(|force| force[2] == 0.0), "a cylinder does not push along its axis");
+    let peak = |curvature: f64| {
+        let effective = 1.0 / (1.0 / particle.radius - curvature / bore);
+        let stiffness = scene.pairs[0].effective_young * effective.sqrt();
+        let overlap = (15.0 * particle.mass * speed * speed / (16.0 * stiffness)).powf(0.4);
+        4.0 / 3.0 * stiffness * overlap.powf(1.5)
+    };
+    // Plain, and with the curvature that a mirror gives the cylinder.
+    for share in [None, Some(0.5), Some(0.0)] {
+        let mut mirrored = scene.clone();
+        mirrored.mirror.cylinder_curvature = share;
+        let record = run(&mirrored);
+        let forces = track(&record, "force", 0, 1);
+        let found = forces.iter().map(|f| f[0].hypot(f[1])).fold(0.0, f64::max);
+        let expected = peak(share.unwrap_or(1.0));
+        // Second order in the time step, 2,000 to the contact; sampled every step.
+        assert!((found / expected - 1.0).abs() < 1e-5, "{share:?}: {found} and {expected} N");
+        assert!(forces.iter().all(|force| force[2] == 0.0), "a cylinder does not push along its axis");
+    }
 }

@@ -68,6 +68,8 @@ pub struct SceneModel {
 pub struct Mirror {
     /// A plane acts like a sphere whose radius is this multiple of the particle's.
     pub plane_radius_factor: Option<f64>,
+    /// Share of its curvature that a cylinder has in R*: 0 makes it a plane.
+    pub cylinder_curvature: Option<f64>,
     /// Where velocities start.
     pub start: Start,
 }

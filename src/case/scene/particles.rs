@@ -47,22 +47,22 @@ pub fn place(case: &Case, scene: &mut Scene) -> Result<Origins, Problem> {
             _ => Vec::new(),
         });
     }
-    if case.particles.iter().any(|source| matches!(source, ParticleSource::Random { .. })) {
-        let mut insertion = Insertion::new(&domain, &scene.bodies, largest(case));
-        for particle in placed.iter().flatten() {
-            insertion.add(particle.position.into(), particle.radius);
-        }
-        for (i, source) in case.particles.iter().enumerate() {
-            if let ParticleSource::Random { material, count, radius, region, velocity } = source {
-                let mut random = Random::new(seed, i);
-                let radii: Vec<f64> = (0..*count).map(|_| draw(radius, &mut random)).collect();
-                let places = insertion
-                    .fill(&radii, &region.map(|corner| Vector::from(si(&corner))), &mut random)
-                    .map_err(|full| Problem::new(format!("particles.{i}.count"), count, full.to_string()))?;
-                let mut moving = || ([0; 3].map(|_| random.between(-velocity.si(), velocity.si())), [0.0; 3]);
-                let spheres = radii.iter().zip(places);
-                placed[i] = spheres.map(|(radius, at)| sphere(case, material, *radius, at.into(), moving())).collect();
+    let largest = largest(case);
+    for (i, source) in case.particles.iter().enumerate() {
+        if let ParticleSource::Random { material, count, radius, region, velocity } = source {
+            let region = region.map(|corner| Vector::from(si(&corner)));
+            let mut insertion = Insertion::new(&domain, &scene.bodies, region, *count, largest);
+            for particle in placed.iter().flatten() {
+                insertion.add(particle.position.into(), particle.radius);
             }
+            let mut random = Random::new(seed, i);
+            let radii: Vec<f64> = (0..*count).map(|_| draw(radius, &mut random)).collect();
+            let places = insertion
+                .fill(&radii, &mut random)
+                .map_err(|full| Problem::new(format!("particles.{i}.count"), count, full.to_string()))?;
+            let mut moving = || ([0; 3].map(|_| random.between(-velocity.si(), velocity.si())), [0.0; 3]);
+            let spheres = radii.iter().zip(places);
+            placed[i] = spheres.map(|(radius, at)| sphere(case, material, *radius, at.into(), moving())).collect();
         }
     }
     let origins = placed.iter().enumerate().flat_map(|(source, particles)| vec![source; particles.len()]).collect();
