@@ -4,14 +4,18 @@ mod approach;
 mod bodies;
 mod duration;
 mod insertion;
+mod mirror;
 mod particles;
 mod random;
+mod specification;
 mod supported;
 mod valid;
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Damping, ForceCut, NormalLaw};
+pub use mirror::{Mirror, Start};
+
+use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
 use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Level};
 use crate::error::Problem;
@@ -60,29 +64,26 @@ pub struct SceneDomain {
 #[expect(missing_docs, reason = "docs/formats.md describes every field")]
 pub struct SceneModel {
     pub normal: NormalLaw,
+    #[serde(default = "frictionless", skip_serializing_if = "is_frictionless")]
+    pub tangential: TangentialLaw,
+    #[serde(default = "free", skip_serializing_if = "is_free")]
+    pub moments: MomentLaw,
 }
 
-/// Engine options that reproduce another code; the plain engine uses [`Mirror::default`].
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mirror {
-    /// A plane acts like a sphere whose radius is this multiple of the particle's.
-    pub plane_radius_factor: Option<f64>,
-    /// Share of its curvature that a cylinder has in R*: 0 makes it a plane.
-    pub cylinder_curvature: Option<f64>,
-    /// Where velocities start.
-    pub start: Start,
+const fn frictionless() -> TangentialLaw {
+    TangentialLaw::Frictionless {}
 }
 
-/// Where velocities start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Start {
-    /// With the positions: velocity Verlet.
-    #[default]
-    Synchronized,
-    /// Half a step before them: leapfrog.
-    Staggered,
+fn is_frictionless(law: &TangentialLaw) -> bool {
+    matches!(law, TangentialLaw::Frictionless {})
+}
+
+const fn free() -> MomentLaw {
+    MomentLaw::Free {}
+}
+
+fn is_free(law: &MomentLaw) -> bool {
+    matches!(law, MomentLaw::Free {})
 }
 
 /// A wall of a scene.
@@ -175,7 +176,11 @@ pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -
         domain: SceneDomain { min: si(&case.domain.min), max: si(&case.domain.max), boundary: case.domain.boundary },
         materials: case.materials.iter().map(solid).collect(),
         pairs: Vec::new(),
-        model: SceneModel { normal: case.model.normal.clone() },
+        model: SceneModel {
+            normal: case.model.normal.clone(),
+            tangential: case.model.tangential.clone(),
+            moments: case.model.moments.clone(),
+        },
         mirror: Mirror::default(),
         bodies: Vec::new(),
         particles: Vec::new(),
@@ -186,8 +191,9 @@ pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -
     particles::weighable(case, &scene, &origins)?;
     valid::room(case, &scene)?;
     drop_unused_materials(&mut scene);
+    let laws = scene.model.specification(&scene.mirror)?;
     approach::overlaps(case, &scene, &origins)?;
-    duration::steps(case, &mut scene)?;
+    duration::steps(case, &mut scene, &laws.normal)?;
     duration::travel(case, &scene, &origins)?;
     Ok(scene)
 }
@@ -246,7 +252,10 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
             effective_shear: shear.is_finite().then_some(shear),
             damping_ratio,
             restitution,
-            friction: None,
+            friction: pair.values.friction.map(Number::get),
+            rolling_friction: pair.values.rolling_friction.map(Number::get),
+            twisting_friction: pair.values.twisting_friction.map(Number::get),
+            work_of_adhesion: pair.values.work_of_adhesion.map(Quantity::si),
         }
     };
     case.pairs.iter().map(mixed).collect()

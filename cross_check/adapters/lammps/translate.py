@@ -1,20 +1,16 @@
-"""From a scene to the numbers and words of a LAMMPS deck (pair_style granular, fix wall/gran granular).
-
-Hertz: F = KN a d + c sqrt(KN a m*) v. KN is always typed (this version forms a wrong E* at walls by itself) and c
-comes from the damping word `tsuji` as a polynomial of the number typed. `limit_damping` cuts the sum at zero.
-"""
+"""From a scene to a LAMMPS deck; the contact laws stand in `laws`."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from cross_check.adapters import capability
-from cross_check.adapters.capability import AXES, Plane
+from cross_check.adapters.capability import AXES, Plane, Tube
 from cross_check.adapters.dump import HISTORY, PARTICLES, STATE
 from cross_check.adapters.interface import Deck, NotComparable, Row
+from cross_check.adapters.lammps import laws
 from cross_check.adapters.render import number, numbers, render, table, word
 from cross_check.scene import Pair, Scene
 
@@ -22,46 +18,16 @@ MAIN = "scene.lmp"
 WITHOUT_BINS = 64
 # LAMMPS has 32 groups, one of them is `all`.
 MOST_MATERIALS = 31
-# The fit that LAMMPS evaluates for `damping tsuji`, by rising powers of the number typed.
-TSUJI = (1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218)
 
 
 @dataclass(frozen=True)
 class Wall:
-    """The fix of one plane for one material of particles: commands and rows of the translation."""
+    """The fix of one body for one material of particles: commands and rows of the translation."""
 
     fix: str
-    plane: Plane
+    body: Plane | Tube
     commands: list[str]
     rows: list[Row]
-
-
-def force_cut(scene: Scene) -> str:
-    """`on` or `off`; LAMMPS does not cut when nothing is said."""
-    return capability.resolved_cut(scene, default="off")
-
-
-def tsuji_number(damping_ratio: float) -> float:
-    """The number to type after `tsuji` [-] so that the fit gives c = sqrt(5) b; it is no restitution.
-
-    The fit falls all the way to below zero at 1.01 (it is 3e-4 at 1), so the root is found by halving; strong dashpots
-    need a negative number.
-    """
-    wanted = math.sqrt(5.0) * damping_ratio
-
-    def fit(x: float) -> float:
-        value = 0.0
-        for factor in reversed(TSUJI):
-            value = value * x + factor
-        return value
-
-    low, high = -1.0, 1.01
-    while fit(low) < wanted:
-        low *= 2.0
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if fit(middle) > wanted else (low, middle)
-    return 0.5 * (low + high)
 
 
 def _kinds(scene: Scene) -> list[int]:
@@ -69,23 +35,24 @@ def _kinds(scene: Scene) -> list[int]:
     return sorted({particle.material for particle in scene.particles})
 
 
-def _coefficients(pair: Pair, cut: str) -> str:
-    """The words after `pair_coeff I J`, the same ones that a wall takes."""
-    stiffness = 4.0 / 3.0 * pair.effective_young
-    damping, constant = ("tsuji", tsuji_number(pair.damping_ratio)) if pair.damping_ratio > 0 else ("velocity", 0.0)
-    limit = " limit_damping" if cut == "on" else ""
-    return f"hertz {number(stiffness)} {number(constant)} tangential linear_nohistory 0 0 damping {damping}{limit}"
+def _moved(wall: Plane | Tube) -> tuple[list[str], str, list[Row]]:
+    """Commands and words that move a region by variables, and their row; none for a wall at rest."""
+    if not any(wall.velocity):
+        return [], "", []
+    variables = [f"move_{wall.index + 1}_{name}" for name in AXES]
+    commands = [f"variable {v} equal {number(u)}*time" for v, u in zip(variables, wall.velocity, strict=True)]
+    velocity, key = numbers(wall.velocity), f"bodies.{wall.name}.motion.velocity"
+    row = Row(key, velocity, f"variable move_{wall.index + 1}_*", velocity, "m/s", "velocity * time")
+    return commands, f" move {' '.join('v_' + v for v in variables)}", [row]
 
 
-def _pair_rows(scene: Scene, pair: Pair, cut: str) -> list[Row]:
-    key = capability.pair_key(scene, pair)
-    words = _coefficients(pair, cut).split()
-    modulus, ratio = number(pair.effective_young), number(pair.damping_ratio)
-    if pair.damping_ratio > 0:
-        damping = Row(f"{key}.damping_ratio", ratio, "damping tsuji ET", words[2], "-", "root of tsuji(ET) = sqrt(5) b")
-    else:
-        damping = Row(f"{key}.damping_ratio", ratio, "damping velocity GAMMA", words[2], "kg/s", "no dashpot")
-    return [Row(f"{key}.effective_young", modulus, "hertz KN", words[1], "Pa", "4/3 E*"), damping]
+def _tube(tube: Tube) -> tuple[str, list[str], list[Row]]:
+    """A cylinder is a region, because `zcylinder` stands at the origin only; R* = 2 R Rc / (2 Rc - R)."""
+    name, values = f"tube_{tube.index + 1}", numbers((*tube.place, tube.radius))
+    commands, move, rows = _moved(tube)
+    commands.append(f"region {name} cylinder {AXES[tube.axis]} {values} INF INF side in{move} units box")
+    row = Row(f"bodies.{tube.name}.shape", values, f"region {name}", values, "m", "axis, radius; R* = 2R Rc/(2Rc - R)")
+    return f"region {name}", commands, [row, *rows]
 
 
 def _place(plane: Plane) -> tuple[str, list[str], list[Row]]:
@@ -99,32 +66,27 @@ def _place(plane: Plane) -> tuple[str, list[str], list[Row]]:
         sides = f"{position} NULL" if plane.side > 0 else f"NULL {position}"
         row = Row(f"{key}.shape.point", position, f"wall_{number_of} {axis}plane", sides, "m", "lo above, hi below")
         return f"{axis}plane {sides}", [], [row]
-    variables = [f"move_{number_of}_{name}" for name in AXES]
-    commands = [f"variable {v} equal {number(u)}*time" for v, u in zip(variables, plane.velocity, strict=True)]
+    commands, move, moved = _moved(plane)
     point, normal = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     point[plane.axis], normal[plane.axis] = plane.position, float(plane.side)
     region = f"region plane_{number_of} plane {numbers(point)} {numbers(normal)} side in"
-    commands.append(f"{region} move {' '.join('v_' + v for v in variables)} units box")
-    velocity = numbers(plane.velocity)
-    rows = [
-        Row(f"{key}.shape.point", position, f"region plane_{number_of}", position, "m", f"its {axis}"),
-        Row(f"{key}.motion.velocity", velocity, f"variable move_{number_of}_*", velocity, "m/s", "velocity * time"),
-    ]
-    return f"region plane_{number_of}", commands, rows
+    commands.append(f"{region}{move} units box")
+    row = Row(f"{key}.shape.point", position, f"region plane_{number_of}", position, "m", f"its {axis}")
+    return f"region plane_{number_of}", commands, [row, *moved]
 
 
-def _walls(scene: Scene, cut: str) -> list[Wall]:
+def _walls(scene: Scene) -> list[Wall]:
     walls: list[Wall] = []
     pairs = {pair.between: pair for pair in capability.touching(scene)}
-    for plane in capability.planes(scene):
-        words, before, rows = _place(plane)
+    for body in capability.walls(scene):
+        words, before, rows = _tube(body) if isinstance(body, Tube) else _place(body)
         style = "wall/gran/region" if before else "wall/gran"
         for kind, material in enumerate(_kinds(scene), start=1):
-            pair = pairs[min(material, plane.material), max(material, plane.material)]
-            fix = f"wall_{plane.index + 1}_{kind}"
-            model = f"{style} granular {_coefficients(pair, cut)}"
+            pair = pairs[min(material, body.material), max(material, body.material)]
+            fix = f"wall_{body.index + 1}_{kind}"
+            model = f"{style} granular {laws.coefficients(scene, pair)}"
             commands = [*before, f"fix {fix} type_{kind} {model} {words} contacts"]
-            walls.append(Wall(fix, plane, commands, rows))
+            walls.append(Wall(fix, body, commands, rows))
             before, rows = [], []
     return walls
 
@@ -134,16 +96,14 @@ def deck(scene: Scene) -> Deck:
     capability.check(scene)
     if len(_kinds(scene)) > MOST_MATERIALS:
         raise NotComparable(f"{len(_kinds(scene))} materials of particles, LAMMPS has groups for {MOST_MATERIALS}")
-    cut = force_cut(scene)
+    laws.check(scene)
     pairs = capability.touching(scene)
-    walls = _walls(scene, cut)
+    walls = _walls(scene)
     magnitude, direction = capability.gravity(scene)
     weight = f"{number(magnitude)} vector {numbers(direction)}"
     rows = capability.shared_rows(scene, "timestep", ("fix gravity", weight, "magnitude and direction"))
-    rows += [row for pair in pairs for row in _pair_rows(scene, pair, cut)]
-    stated = scene.model.normal.force_cut
-    rows.append(Row("model.normal.law", "hertz", "pair_style", "granular", "-", "frictionless: linear_nohistory 0 0"))
-    rows.append(Row("model.normal.force_cut", stated, "limit_damping", cut, "-", "default: off, the force may pull"))
+    rows += [row for pair in pairs for row in laws.pair_rows(scene, pair)]
+    rows += laws.model_rows(scene)
     rows += [row for wall in walls for row in wall.rows]
     rows.append(Row("particles[*].radius", "below", "diameter", "below", "m", "2 R"))
     rows.append(Row("particles[*].mass", "below", "mass", "below", "kg", "as stated"))
@@ -160,10 +120,10 @@ def _pair_lines(scene: Scene, pairs: Sequence[Pair]) -> list[dict[str, str]]:
             pair = stated.get((first, second))
             names = f"{word(scene.materials[first].name)} with {word(scene.materials[second].name)}"
             if pair is None:
-                none = "hertz 0 0 tangential linear_nohistory 0 0 damping velocity"
-                lines.append({"comment": f"{names}: never touch here", "words": f"{i + 1} {j + 1} {none}"})
+                words = f"{i + 1} {j + 1} {laws.no_contact(scene)}"
+                lines.append({"comment": f"{names}: never touch here", "words": words})
             else:
-                words = f"{i + 1} {j + 1} {_coefficients(pair, force_cut(scene))}"
+                words = f"{i + 1} {j + 1} {laws.coefficients(scene, pair)}"
                 lines.append({"comment": names, "words": words})
     return lines
 
@@ -198,9 +158,10 @@ def _text(scene: Scene, rows: list[Row], pairs: Sequence[Pair], walls: Sequence[
                 }
                 for index, particle in enumerate(scene.particles, start=1)
             ],
+            "contacts": laws.comment(scene),
             "pairs": _pair_lines(scene, pairs),
             "time_step": number(scene.time_step),
-            "walls": [{"name": word(wall.plane.name), "commands": wall.commands} for wall in walls],
+            "walls": [{"name": word(wall.body.name), "commands": wall.commands} for wall in walls],
             "gravity": number(magnitude),
             "direction": numbers(direction),
             "every": scene.output_every,
@@ -219,7 +180,7 @@ def force_columns(fix: str) -> tuple[str, str, str]:
 
 def wall_columns(scene: Scene) -> list[tuple[int, tuple[str, str, str]]]:
     """Body index and dump columns of every wall fix of the deck."""
-    return [(wall.plane.index, force_columns(wall.fix)) for wall in _walls(scene, force_cut(scene))]
+    return [(wall.body.index, force_columns(wall.fix)) for wall in _walls(scene)]
 
 
 def types(scene: Scene) -> list[int]:

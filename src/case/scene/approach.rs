@@ -111,12 +111,6 @@ fn approach(
 ) -> Option<StartApproach> {
     let speed = -velocity.dot(&geometry.normal);
     let pair = scene.pair(materials[0], materials[1]).filter(|_| speed > 0.0)?;
-    let law = PairLaw {
-        effective_young: pair.effective_young,
-        effective_radius: geometry.effective_radius(),
-        effective_mass: mass,
-        damping_ratio: pair.damping_ratio,
-        ..PairLaw::default()
-    };
+    let law = pair.law(geometry.effective_radius(), mass);
     Some(StartApproach { law, speed })
 }

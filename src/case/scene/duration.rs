@@ -6,7 +6,7 @@ use crate::Vector;
 use crate::case::protocol::End;
 use crate::case::schema::{Case, TimeStep};
 use crate::error::Problem;
-use crate::laws::normal::hertz::Hertz;
+use crate::laws::registry::Normal;
 
 /// Most steps of one run: beyond it a number was mistyped.
 pub const MOST_STEPS: f64 = 1e9;
@@ -16,7 +16,7 @@ const MOST_VALUES: f64 = 1e9;
 const MOST_PAIRED: usize = 10_000;
 
 /// Duration of the shortest elastic impact at the start velocities [s], or why there is none.
-fn shortest_impact(scene: &Scene) -> Result<f64, String> {
+fn shortest_impact(scene: &Scene, law: &Normal) -> Result<f64, String> {
     if scene.particles.len() > MOST_PAIRED {
         let count = scene.particles.len();
         return Err(format!(
@@ -24,17 +24,17 @@ fn shortest_impact(scene: &Scene) -> Result<f64, String> {
              state a time in s, or a time step as a Rayleigh fraction"
         ));
     }
-    let durations = approach::approaches(scene).map(|start| Hertz::elastic_impact(&start.law, start.speed).duration);
+    let durations = approach::approaches(scene).map(|start| law.impact_duration(&start.law, start.speed));
     durations.reduce(f64::min).ok_or_else(|| {
         "nothing approaches anything at the start, so that no contact has a duration; state a time in s".to_owned()
     })
 }
 
 /// Chooses the time step and the number of steps.
-pub fn steps(case: &Case, scene: &mut Scene) -> Result<(), Problem> {
+pub fn steps(case: &Case, scene: &mut Scene, law: &Normal) -> Result<(), Problem> {
     let asked = matches!(case.time.step, TimeStep::ContactFraction { .. })
         || matches!(case.stages[0].end, End::Contacts { .. });
-    let impact = if asked { shortest_impact(scene) } else { Ok(0.0) };
+    let impact = if asked { shortest_impact(scene, law) } else { Ok(0.0) };
     let rayleigh = scene
         .particles
         .iter()

@@ -8,6 +8,7 @@ use crate::Vector;
 use crate::case::schema::{Boundary, Case};
 use crate::domain::Domain;
 use crate::error::{Error, Problem};
+use crate::laws::registry::Specification;
 use crate::simulation::SKIN;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -57,7 +58,11 @@ impl Scene {
         if self.output_every == 0 {
             return Some("output_every = 0: at least 1".to_owned());
         }
-        self.indices().or_else(|| self.numbers()).or_else(|| self.missing_pair())
+        let laws = match self.model.specification(&self.mirror) {
+            Ok(laws) => laws,
+            Err(problem) => return Some(problem.to_string()),
+        };
+        self.indices().or_else(|| self.numbers()).or_else(|| self.values(&laws)).or_else(|| self.missing_pair())
     }
 
     fn indices(&self) -> Option<String> {
@@ -133,6 +138,30 @@ impl Scene {
                 too_narrow.then(|| ("radius", format!("{radius:e} m"), allowed))
             }
         }
+    }
+
+    /// Values that the laws ask of every pair.
+    fn values(&self, laws: &Specification) -> Option<String> {
+        let asked = laws.asks();
+        for (i, pair) in self.pairs.iter().enumerate() {
+            let given = [
+                ("effective_shear", asked.effective_shear, pair.effective_shear),
+                ("friction", asked.friction, pair.friction),
+                ("rolling_friction", asked.rolling_friction, pair.rolling_friction),
+                ("twisting_friction", asked.twisting_friction, pair.twisting_friction),
+                ("work_of_adhesion", asked.work_of_adhesion, pair.work_of_adhesion),
+            ];
+            for (name, asked, value) in given {
+                match value {
+                    None if asked => return Some(format!("pairs.{i}.{name} = nothing: the laws of the model need it")),
+                    Some(value) if !(value >= 0.0 && value.is_finite()) => {
+                        return Some(format!("pairs.{i}.{name} = {value}: must not be negative"));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        None
     }
 
     /// A contact without a pair would have no force.
