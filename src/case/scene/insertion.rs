@@ -10,7 +10,7 @@ use crate::domain::Domain;
 use crate::geometry;
 
 /// Places tried in a row for one sphere before the region counts as full. Equal spheres jam at a packing fraction of
-/// 0.384 (Torquato, Uche, Stillinger 2006), and the last of them take long.
+/// 0.384 (Torquato, Uche, Stillinger 2006), and the last of them would take long: so many places come to some 0.32.
 const ATTEMPTS: u32 = 10_000;
 
 /// A region without room.
@@ -26,7 +26,7 @@ impl fmt::Display for Full {
         write!(
             f,
             "the region is too full: after {} particles (packing fraction {:.3} of the region) {ATTEMPTS} places in a \
-             row were taken for a radius of {:e} m; random insertion of equal spheres ends near 0.38",
+             row were taken for a radius of {:e} m; equal spheres come to some 0.32",
             self.placed, self.packing_fraction, self.radius
         )
     }
