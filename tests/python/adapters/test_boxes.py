@@ -39,12 +39,11 @@ def across(whole: Scene, shift: Vector) -> Scene:
     return replace(whole, particles=tuple(replace(p, position=moved(p.position)) for p in whole.particles))
 
 
-def runner() -> Scene:
+def runner(whole: Scene, variant: str) -> Scene:
     """A spinning sphere that bounces on a floor and leaves a box of 4 cm twice along x meanwhile."""
-    whole = contact_scenes.spinning_floor()
-    fast = replace(whole.particles[0], velocity=(70.0, -3.0, -0.5))
-    whole = contact_scenes.mindlin(replace(whole, particles=(fast,)), 0.4, "floor")
-    return boxed(whole, "xy", "box/floor", 0.02)
+    fast = replace(whole.particles[0], velocity=(70.0, -3.0, -0.5), angular_velocity=(30.0, -40.0, 25.0))
+    whole = contact_scenes.mindlin(replace(whole, particles=(fast,)), 0.4, variant)
+    return boxed(whole, "xy", variant, 0.02)
 
 
 def tube(axis: int, friction: float | None, velocity: float = 0.0) -> Scene:
@@ -77,7 +76,8 @@ def faces() -> dict[str, Scene]:
     return {
         "face": across(boxed(pair, "x", "box/face"), (0.0365, 0.0, 0.0)),
         "corner": boxed(corner, "xyz", "box/corner"),
-        "floor": runner(),
+        "floor": runner(scenes.floor(), "box/floor"),
+        "rising": runner(scenes.rising_floor(), "box/rising"),
     }
 
 
