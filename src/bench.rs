@@ -139,6 +139,7 @@ impl Bed {
             bodies: Vec::new(),
             paths: Vec::new(),
             plane_radius_factor: None,
+            cylinder_curvature: None,
             start: Start::Synchronized,
             ledger: false,
             skin: None,

@@ -21,7 +21,7 @@ from cross_check.mirror_options import (
     TwistingOptions,
     TwistingSpring,
 )
-from cross_check.scene import Scene
+from cross_check.scene import Cylinder, Plane, Scene
 
 MID_OVERLAP = Arms("mid_overlap", "mid_overlap")
 
@@ -127,11 +127,13 @@ def _moment_choices(scene: Scene) -> dict[str, Any]:
 
 
 def _options(scene: Scene) -> dict[str, Any]:
-    planes = len(scene.bodies) > 0
+    planes = any(isinstance(body.shape, Plane) for body in scene.bodies)
+    cylinders = any(isinstance(body.shape, Cylinder) for body in scene.bodies)
     hysteretic = isinstance(scene.model.normal, LudingHysteretic)
     return {
         "force_cut": _cut(scene),
         "plane_radius_factor": scene.mirror.plane_radius_factor if planes else None,
+        "cylinder_curvature": scene.mirror.cylinder_curvature if cylinders else None,
         "start": scene.mirror.start,
         "dashpot_limit": (scene.mirror.dashpot_limit or "base") if _adhesive(scene) and _damped(scene) else None,
         "hysteresis": (scene.mirror.hysteresis or "self_consistent") if hysteretic else None,

@@ -6,6 +6,7 @@
 
 use crate::Vector;
 use crate::contacts::{Account, Contacts};
+use crate::domain::Domain;
 use crate::laws::memory::Memory;
 use crate::particles::Particles;
 
@@ -56,6 +57,7 @@ impl Ledger {
         &mut self,
         particles: &Particles,
         driven: &[u32],
+        domain: &Domain,
         contacts: &Contacts<H>,
         gravity: &Vector,
         ahead: f64,
@@ -69,7 +71,7 @@ impl Ledger {
             let angular = motion.angular_velocity - load.torque * (ahead / inertia);
             self.kinetic += 0.5 * motion.mass * velocity.norm_squared();
             self.kinetic += 0.5 * inertia * angular.norm_squared();
-            self.gravity -= motion.mass * gravity.dot(&particles.place[i].position);
+            self.gravity -= motion.mass * gravity.dot(&particles.unwrapped(i, domain));
         }
         let sum = |accounts: &[Account]| accounts.iter().map(|account| account.energy).sum::<f64>();
         self.elastic = 0.0;

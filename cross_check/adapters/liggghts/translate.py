@@ -27,7 +27,7 @@ def deck(scene: Scene) -> Deck:
         raise NotComparable(f"{len(scene.drives)} driven particles, LIGGGHTS has {MOST_GROUPS} groups")
     paths.constant_spins(scene, "LIGGGHTS")
     words = laws.words(scene)
-    walls = [wall_of(plane, scene.domain, words.model, words.settings) for plane in capability.planes(scene)]
+    walls = [wall_of(wall, scene.domain, words.model, words.settings) for wall in capability.walls(scene)]
     magnitude, direction = capability.gravity(scene)
     weight = f"{number(magnitude)} vector {numbers(direction)}"
     rows = capability.shared_rows(scene, "timestep", ("fix gravity", weight, "magnitude and direction"))

@@ -44,7 +44,10 @@ pub fn resolve(case: &Case, scene: &Scene, stages: &[u64]) -> Result<Vec<SceneDr
     driven.dedup();
     let mut drives = Vec::new();
     for particle in driven {
-        let start = &scene.particles[particle];
+        let Some(start) = scene.particles.get(particle) else {
+            let allowed = format!("the scene has {} particles, from 0", scene.particles.len());
+            return Err(Problem::new("stages", format!("a drive of particle {particle}"), allowed));
+        };
         for (name, value) in [("velocity", start.velocity), ("angular_velocity", start.angular_velocity)] {
             if value.iter().any(|component| *component != 0.0) {
                 let allowed = "a driven particle starts at rest; its stages state how it moves";
