@@ -1,7 +1,7 @@
 //! Driven particles: they follow their paths, free ones beside them stay free, the ledger knows the work of the drives,
 //! and a restart changes no bit.
 
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "tests")]
 
 use std::path::{Path, PathBuf};
 

@@ -46,7 +46,7 @@ pub fn resolve(case: &Case, scene: &Scene, stages: &[u64]) -> Result<Vec<SceneDr
     for particle in driven {
         let start = &scene.particles[particle];
         for (name, value) in [("velocity", start.velocity), ("angular_velocity", start.angular_velocity)] {
-            if value != [0.0; 3] {
+            if value.iter().any(|component| *component != 0.0) {
                 let allowed = "a driven particle starts at rest; its stages state how it moves";
                 return Err(Problem::new(format!("particles.{particle}.{name}"), format!("{value:?}"), allowed));
             }
