@@ -58,6 +58,7 @@ def _turns(scene: Scene) -> bool:
         return True
     normals = [body.shape.normal for body in scene.bodies]
     spins = [particle.angular_velocity for particle in scene.particles]
+    spins += [leg.angular_velocity for drive in scene.drives for leg in drive.legs]
     return any(sum(a * b for a, b in zip(spin, normal, strict=True)) != 0.0 for spin in spins for normal in normals)
 
 
