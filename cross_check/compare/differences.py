@@ -54,9 +54,9 @@ def _adhesive(scene: Scene) -> bool:
 
 def _turns(scene: Scene) -> bool:
     """Whether the normal of the contact turns, or the sphere about it: at a plane a spring stays as it lies."""
-    if not scene.bodies:
+    normals = [body.shape.normal for body in scene.bodies if isinstance(body.shape, Plane)]
+    if len(normals) < len(scene.bodies) or not normals:
         return True
-    normals = [body.shape.normal for body in scene.bodies]
     spins = [particle.angular_velocity for particle in scene.particles]
     spins += [leg.angular_velocity for drive in scene.drives for leg in drive.legs]
     return any(sum(a * b for a, b in zip(spin, normal, strict=True)) != 0.0 for spin in spins for normal in normals)
