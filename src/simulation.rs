@@ -1,6 +1,7 @@
 //! One step is the passes in order, nothing else: move the particles, rebuild the neighbour list if it is stale, sweep
 //! over the contacts, gather.
 
+mod batch;
 mod motion;
 pub mod run;
 mod state;
@@ -125,6 +126,8 @@ pub struct Simulation<M: ContactModel> {
     step: u64,
     rebuilds: u64,
     stale: bool,
+    /// Largest displacement of a particle in the last step [m].
+    fastest: f64,
 }
 
 impl<M: ContactModel> Simulation<M> {
@@ -162,6 +165,7 @@ impl<M: ContactModel> Simulation<M> {
             step: 0,
             rebuilds: 0,
             stale: false,
+            fastest: 0.0,
             model,
         })
     }
@@ -245,6 +249,7 @@ impl<M: ContactModel> Simulation<M> {
     /// Gives the periodic axes the edge `edge` [m] and moves the particles affinely; velocities stay.
     pub fn rescale(&mut self, edge: f64) {
         let old = self.domain.length;
+        self.neighbors.moved(f64::INFINITY);
         for axis in (0..3).filter(|axis| self.domain.periodic[*axis]) {
             self.domain.length[axis] = edge;
             let (min, factor) = (self.domain.min[axis], edge / old[axis]);

@@ -23,7 +23,7 @@ use super::normal::sjkr::{Lens, Sjkr};
 use super::normal::sjkr2::{Linear, Sjkr2};
 use super::tangential::linear_history::LinearHistory;
 use super::tangential::mindlin::Mindlin;
-use super::tangential::options::{Dashpot, Options, Plain};
+use super::tangential::options::{Dashpot, Options};
 use super::{NormalLaw, TangentialLaw};
 
 /// A normal law; values that belong to pairs are not here.
@@ -103,11 +103,10 @@ impl Specification {
     fn spot<N: NormalLaw, V: Visitor>(&self, normal: N, visitor: V) -> Result<V::Output, Problem> {
         match self.tangential {
             Tangential::Frictionless => self.without_friction(normal, visitor),
-            Tangential::Mindlin { dashpot, options }
+            Tangential::Mindlin { dashpot: Dashpot::CriticalShare, options }
                 if options == Options::plain() && self.moments == Moments::NONE =>
             {
-                let tangential = Mindlin { choices: Plain, dashpot };
-                Ok(visitor.visit(Composed { normal, tangential, moments: Free }))
+                Ok(visitor.visit(Composed { normal, tangential: Mindlin::plain(), moments: Free }))
             }
             Tangential::Mindlin { dashpot, options } => {
                 Ok(self.compose(normal, Mindlin { choices: options, dashpot }, visitor))

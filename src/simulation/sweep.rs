@@ -1,4 +1,5 @@
-//! The sweep over contacts. A block selects the candidates that may touch, evaluates them, and adds to its particles.
+//! The sweep over contacts. A block selects the candidates that may touch within the next steps, evaluates them, and adds
+//! to its particles.
 
 use rayon::prelude::*;
 
@@ -13,6 +14,7 @@ use crate::neighbors::Near;
 use crate::particles::{Load, Motion, Place};
 
 use super::Simulation;
+use super::batch::{Batch, FEWEST, LANES};
 
 /// Share by which the first, cheap test of a pair is wider than the law's own.
 const SLACK: f64 = 1.0 + 1e-12;
@@ -28,7 +30,8 @@ struct View<'a, M: ContactModel> {
     bodies: &'a [Body],
     plane_radius_factor: Option<f64>,
     shifts: [Vector; 32],
-    reach: f64,
+    /// Gap up to which candidates are selected anew [m].
+    selection: Option<f64>,
     elapsed: f64,
 }
 
@@ -46,7 +49,7 @@ impl<M: ContactModel> Simulation<M> {
             bodies: &self.bodies,
             plane_radius_factor: self.plane_radius_factor,
             shifts: self.domain.shifts(),
-            reach: self.neighbors.reach,
+            selection: self.neighbors.selection(self.fastest),
             elapsed,
         };
         let sweep = |block: &mut Block<M::History>, loads: &mut [Load]| {
@@ -78,49 +81,110 @@ impl<M: ContactModel> Simulation<M> {
     }
 }
 
+/// The sweep over one block, compiled for each width of vectors that processors have; the bits are the same for all.
+struct Task<'a, 'b, M: ContactModel> {
+    view: &'a View<'b, M>,
+    block: &'a mut Block<M::History>,
+    loads: &'a mut [Load],
+}
+
+impl<M: ContactModel> pulp::NullaryFnOnce for Task<'_, '_, M> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.view.batches(self.block, self.loads);
+    }
+}
+
 impl<M: ContactModel> View<'_, M> {
     fn sweep<const LEDGER: bool>(&self, block: &mut Block<M::History>, loads: &mut [Load]) {
         loads.fill(Load::default());
-        block.exports.fill(Load::default());
         block.flow = Flow::default();
-        let mut active = std::mem::take(&mut block.active);
-        self.select(&block.pairs, &mut active);
-        let border = active.partition_point(|slot| (*slot as usize) < block.inside);
-        for slot in &active[..border] {
-            let slot = *slot as usize;
-            let pair = block.pairs.candidates[slot];
-            if let Some(action) = self.pair::<LEDGER>(pair, slot, &mut block.pairs, &mut block.flow) {
-                push(&mut loads[pair.i() - block.first], action.force, action.torque_i);
-                push(&mut loads[pair.j() - block.first], -action.force, action.torque_j);
-            }
+        if let Some(gap) = self.selection {
+            // Only selected pairs write their exports.
+            block.exports.fill(Load::default());
+            let mut active = std::mem::take(&mut block.active);
+            self.select(&block.pairs, gap, &mut active);
+            block.active = active;
         }
-        for slot in &active[border..] {
-            let slot = *slot as usize;
-            let pair = block.pairs.candidates[slot];
-            if let Some(action) = self.pair::<LEDGER>(pair, slot, &mut block.pairs, &mut block.flow) {
-                let (own, other) = if pair.i() < pair.j() { (pair.i(), false) } else { (pair.j(), true) };
-                let mut ends = [(action.force, action.torque_i), (-action.force, action.torque_j)];
-                if other {
-                    ends.swap(0, 1);
-                }
-                push(&mut loads[own - block.first], ends[0].0, ends[0].1);
-                push(&mut block.exports[slot - block.inside], ends[1].0, ends[1].1);
-            }
+        if M::BATCHED && !LEDGER {
+            pulp::Arch::new().dispatch(Task { view: self, block, loads });
+        } else {
+            self.singles::<LEDGER>(0, block, loads);
         }
-        block.active = active;
         for slot in 0..block.near.candidates.len() {
             self.near::<LEDGER>(slot, block, loads);
         }
     }
 
-    /// Lists the slots whose contacts may act now, or acted before.
-    fn select(&self, pairs: &Slots<Pair, M::History>, active: &mut Vec<u32>) {
+    /// Contacts several at a time; those that fill no batch follow one by one.
+    #[inline(always)]
+    fn batches(&self, block: &mut Block<M::History>, loads: &mut [Load]) {
+        let mut batch = Batch::new();
+        let only = if let [Some(properties)] = self.table {
+            (0..LANES).for_each(|lane| batch.set_properties(lane, properties));
+            true
+        } else {
+            false
+        };
+        let mut done = 0;
+        while block.active.len() - done >= FEWEST {
+            let count = (block.active.len() - done).min(LANES);
+            for lane in 0..count {
+                let slot = block.active[done + lane] as usize;
+                let pair = block.pairs.candidates[slot];
+                let places = [&self.place[pair.i()], &self.place[pair.j()]];
+                let motions = [&self.motion[pair.i()], &self.motion[pair.j()]];
+                batch.fill(lane, places, motions, &self.shifts[pair.image()], &block.pairs.history[slot]);
+                if !only {
+                    let row = motions[0].material as usize * self.materials;
+                    if let Some(properties) = &self.table[row + motions[1].material as usize] {
+                        batch.set_properties(lane, properties);
+                    }
+                }
+            }
+            batch.evaluate(self.model, *self.shared, self.elapsed);
+            for lane in 0..count {
+                let slot = block.active[done + lane] as usize;
+                let result = batch.result(lane);
+                block.pairs.alive[slot] = result.is_some();
+                if let Some((history, ends)) = result {
+                    block.pairs.history[slot] = history;
+                    deliver(slot, ends, block, loads);
+                } else {
+                    block.pairs.history[slot] = M::History::default();
+                    withhold(slot, block);
+                }
+            }
+            done += count;
+        }
+        self.singles::<false>(done, block, loads);
+    }
+
+    /// Contacts one by one, from an entry of the active ones on.
+    fn singles<const LEDGER: bool>(&self, from: usize, block: &mut Block<M::History>, loads: &mut [Load]) {
+        for at in from..block.active.len() {
+            let slot = block.active[at] as usize;
+            let pair = block.pairs.candidates[slot];
+            if let Some(action) = self.pair::<LEDGER>(pair, slot, &mut block.pairs, &mut block.flow) {
+                let on_i = Load { force: action.force, torque: action.torque_i };
+                let on_j = Load { force: -action.force, torque: action.torque_j };
+                deliver(slot, [on_i, on_j], block, loads);
+            } else {
+                withhold(slot, block);
+            }
+        }
+    }
+
+    /// Lists the slots whose particles are nearer than a `gap` [m], or whose contacts live.
+    fn select(&self, pairs: &Slots<Pair, M::History>, gap: f64, active: &mut Vec<u32>) {
         active.resize(pairs.candidates.len(), 0);
         let mut count = 0;
         for ((pair, alive), slot) in pairs.candidates.iter().zip(&pairs.alive).zip(0u32..) {
             let (one, other) = (&self.place[pair.i()], &self.place[pair.j()]);
             let squared = (one.position - other.position + self.shifts[pair.image()]).norm_squared();
-            let reach = one.radius + other.radius + self.reach;
+            let reach = one.radius + other.radius + gap;
             active[count] = slot;
             count += usize::from((squared < reach * reach * SLACK) | *alive);
         }
@@ -169,7 +233,7 @@ impl<M: ContactModel> View<'_, M> {
         let contact = contact(properties, geometry, masses, velocity, [motion.angular_velocity, Vector::zeros()]);
         let slots: &mut Slots<Near, M::History> = &mut block.near;
         if let Some(action) = self.evaluate::<LEDGER, _>(&contact, slot, slots, &mut block.flow, &body.velocity) {
-            push(&mut loads[particle - block.first], action.force, action.torque_i);
+            push(&mut loads[particle - block.first], &Load { force: action.force, torque: action.torque_i });
             block.body_forces[slot] = action.force;
         }
     }
@@ -200,14 +264,41 @@ impl<M: ContactModel> View<'_, M> {
     }
 }
 
+/// Adds what a contact does to its particles, or exports it.
 #[inline(always)]
-fn push(load: &mut Load, force: Vector, torque: Vector) {
-    load.force += force;
-    load.torque += torque;
+fn deliver<H>(slot: usize, [on_i, on_j]: [Load; 2], block: &mut Block<H>, loads: &mut [Load]) {
+    let pair = block.pairs.candidates[slot];
+    if slot < block.inside {
+        push(&mut loads[pair.i() - block.first], &on_i);
+        push(&mut loads[pair.j() - block.first], &on_j);
+    } else {
+        let export = &mut block.exports[slot - block.inside];
+        if pair.i() < pair.j() {
+            push(&mut loads[pair.i() - block.first], &on_i);
+            *export = on_j;
+        } else {
+            push(&mut loads[pair.j() - block.first], &on_j);
+            *export = on_i;
+        }
+    }
+}
+
+/// Takes back what a contact exported in an earlier step.
+#[inline(always)]
+fn withhold<H>(slot: usize, block: &mut Block<H>) {
+    if slot >= block.inside {
+        block.exports[slot - block.inside] = Load::default();
+    }
 }
 
 #[inline(always)]
-fn contact(
+fn push(load: &mut Load, more: &Load) {
+    load.force += more.force;
+    load.torque += more.torque;
+}
+
+#[inline(always)]
+pub(super) fn contact(
     pair: &PairProperties,
     geometry: ContactGeometry,
     masses: [f64; 2],

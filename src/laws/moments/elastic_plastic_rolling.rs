@@ -33,7 +33,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::laws::rotation::{Rotation, Turn};
+use crate::laws::rotation::{InPlane, Rotation, Turn};
 use crate::laws::slider::{Cap, History, Increment, Memory, Order, Rules, Step};
 use crate::laws::{Contact, MomentLaw, MomentState, NormalState, TangentialState};
 
@@ -177,7 +177,7 @@ impl MomentLaw for ElasticPlasticRolling {
             cap: self.cap,
         };
         let step = Step { rate, stiffness, dashpot, limit, dt };
-        let response = rules.advance(&step, history, |vector| self.rotation.carry(vector, &turn, negligible));
+        let response = rules.advance(&step, history, &InPlane { rotation: self.rotation, turn: &turn, negligible });
         let mut state = MomentState::of(&response);
         // Work on spins that the spring does not see: none in native laws.
         state.losses.carried -= response.force.dot(&(super::relative_spin(contact) - rate)) * dt;
