@@ -1,8 +1,9 @@
-//! A batch of contacts, one column per quantity, so that several are evaluated at a time.
+//! A batch of contacts, evaluated several at a time.
 //!
-//! Columns have a fixed length and belong to one value on the stack: only so does the compiler know that no write of one
-//! lane is read by another, and vectorises the loop over lanes. Lanes do not depend on each other, nothing is fused or
-//! approximated: the bits are those of contacts evaluated one by one, for every width of vectors.
+//! Rows have a fixed length and belong to one value on the stack: only so does the compiler know that no write of one lane
+//! is read by another, and vectorises the loop over lanes. Lanes do not depend on each other, nothing is fused or
+//! approximated: the bits are those of contacts evaluated one by one, for every width of vectors. Rows of four numbers are
+//! copied from and added to particles at once; the loop over lanes takes them apart.
 
 use crate::Vector;
 use crate::geometry;
@@ -17,82 +18,75 @@ pub const LANES: usize = 64;
 /// Contacts below which a batch is not worth its empty lanes.
 pub const FEWEST: usize = 8;
 
-/// A column of numbers.
+/// Four numbers that stand together in memory.
+pub type Row = [f64; 4];
+/// One row for each contact.
+type Rows = [Row; LANES];
+/// One number for each contact.
 type Column = [f64; LANES];
-/// Vectors as columns.
-type Columns = [Column; 3];
-
-#[inline(always)]
-fn get(columns: &Columns, lane: usize) -> Vector {
-    Vector::new(columns[0][lane], columns[1][lane], columns[2][lane])
-}
-
-#[inline(always)]
-fn set(columns: &mut Columns, lane: usize, vector: &Vector) {
-    columns[0][lane] = vector.x;
-    columns[1][lane] = vector.y;
-    columns[2][lane] = vector.z;
-}
 
 /// What contacts know before they are evaluated, what they remember, and what they do.
 #[repr(align(64))]
 pub struct Batch<H> {
-    branch: Columns,
-    velocity: Columns,
-    angular_i: Columns,
-    angular_j: Columns,
-    radius_i: Column,
-    radius_j: Column,
-    mass_i: Column,
-    mass_j: Column,
+    /// Branch vector (from j to i); the last entry is not used.
+    branch: Rows,
+    /// Velocity and the first component of the angular velocity, of i and j.
+    velocity: [Rows; 2],
+    /// The other components of the angular velocity, and the mass; the last entry is not used.
+    rest: [Rows; 2],
+    radius: [Column; 2],
     young: Column,
     shear: Column,
     friction: Column,
     damping: Column,
     history: [H; LANES],
     alive: [u64; LANES],
-    force: Columns,
-    torque_i: Columns,
-    torque_j: Columns,
+    /// Force on i and j, and the first component of the torque.
+    force: [Rows; 2],
+    /// The other components of the torque on i, then on j.
+    torque: Rows,
+}
+
+/// The row of a vector that has no fourth entry.
+pub fn row(vector: &Vector) -> Row {
+    [vector.x, vector.y, vector.z, 0.0]
 }
 
 impl<H: Copy + Default> Batch<H> {
     /// Lanes that no contact has filled.
     #[inline(always)]
     pub fn new() -> Self {
-        let (column, columns) = ([1.0; LANES], [[1.0; LANES]; 3]);
+        let (column, rows) = ([1.0; LANES], [[1.0; 4]; LANES]);
         Self {
-            branch: columns,
-            velocity: columns,
-            angular_i: columns,
-            angular_j: columns,
-            radius_i: column,
-            radius_j: column,
-            mass_i: column,
-            mass_j: column,
+            branch: rows,
+            velocity: [rows; 2],
+            rest: [rows; 2],
+            radius: [column; 2],
             young: column,
             shear: column,
             friction: column,
             damping: column,
             history: [H::default(); LANES],
             alive: [0; LANES],
-            force: columns,
-            torque_i: columns,
-            torque_j: columns,
+            force: [rows; 2],
+            torque: rows,
         }
     }
 
-    /// Fills a lane.
+    /// Fills a lane; `shift` is that of the image in which the pair meets [m].
     #[inline(always)]
-    pub fn fill(&mut self, lane: usize, [place_i, place_j]: [&Place; 2], [motion_i, motion_j]: [&Motion; 2], shift: &Vector, history: &H) {
-        set(&mut self.branch, lane, &(place_i.position - place_j.position + shift));
-        set(&mut self.velocity, lane, &(motion_i.velocity - motion_j.velocity));
-        set(&mut self.angular_i, lane, &motion_i.angular_velocity);
-        set(&mut self.angular_j, lane, &motion_j.angular_velocity);
-        self.radius_i[lane] = place_i.radius;
-        self.radius_j[lane] = place_j.radius;
-        self.mass_i[lane] = motion_i.mass;
-        self.mass_j[lane] = motion_j.mass;
+    pub fn fill(&mut self, lane: usize, [one, other]: [&Place; 2], motions: [&Motion; 2], shift: &Row, history: &H) {
+        let place = |place: &Place| [place.position.x, place.position.y, place.position.z, place.radius];
+        let (near, far) = (place(one), place(other));
+        self.branch[lane] = [0, 1, 2, 3].map(|k| near[k] - far[k] + shift[k]);
+        self.radius[0][lane] = one.radius;
+        self.radius[1][lane] = other.radius;
+        for (end, motion) in motions.into_iter().enumerate() {
+            let (v, w) = (&motion.velocity, &motion.angular_velocity);
+            self.velocity[end][lane] = [v.x, v.y, v.z, w.x];
+            let rest = &mut self.rest[end][lane];
+            (rest[0], rest[1], rest[2]) = (w.y, w.z, motion.mass);
+        }
         self.history[lane] = *history;
     }
 
@@ -108,11 +102,16 @@ impl<H: Copy + Default> Batch<H> {
     /// Evaluates all lanes, the empty ones too.
     #[inline(always)]
     pub fn evaluate<M: ContactModel<History = H>>(&mut self, model: M, shared: M::Shared, elapsed: f64) {
-        // Rows of another length than the columns' need a place of their own.
+        // Rows of another length need a place of their own.
         let mut histories = self.history;
         for lane in 0..LANES {
-            let branch = get(&self.branch, lane);
+            let [x, y, z, _] = self.branch[lane];
+            let branch = Vector::new(x, y, z);
             let squared = branch.norm_squared();
+            let [(velocity_i, angular_i, mass_i), (velocity_j, angular_j, mass_j)] = [0, 1].map(|end| {
+                let ([vx, vy, vz, wx], [wy, wz, mass, _]) = (self.velocity[end][lane], self.rest[end][lane]);
+                (Vector::new(vx, vy, vz), Vector::new(wx, wy, wz), mass)
+            });
             let pair = PairProperties {
                 between: [0; 2],
                 effective_young: self.young[lane],
@@ -123,27 +122,37 @@ impl<H: Copy + Default> Batch<H> {
             };
             let contact = contact(
                 &pair,
-                geometry::spheres(branch, squared, self.radius_i[lane], self.radius_j[lane]),
-                [self.mass_i[lane], self.mass_j[lane]],
-                get(&self.velocity, lane),
-                [get(&self.angular_i, lane), get(&self.angular_j, lane)],
+                geometry::spheres(branch, squared, self.radius[0][lane], self.radius[1][lane]),
+                [mass_i, mass_j],
+                velocity_i - velocity_j,
+                [angular_i, angular_j],
             );
             let history = &mut histories[lane];
             self.alive[lane] = u64::from((squared > 0.0) & model.alive(contact.geometry.overlap, history));
             let action = model.evaluate(&contact, &shared, elapsed, history);
-            set(&mut self.force, lane, &action.force);
-            set(&mut self.torque_i, lane, &action.torque_i);
-            set(&mut self.torque_j, lane, &action.torque_j);
+            let (force, on_i, on_j) = (action.force, action.torque_i, action.torque_j);
+            self.force[0][lane] = [force.x, force.y, force.z, on_i.x];
+            self.force[1][lane] = [-force.x, -force.y, -force.z, on_j.x];
+            self.torque[lane] = [on_i.y, on_i.z, on_j.y, on_j.z];
         }
         self.history = histories;
     }
 
-    /// What the contact of a lane remembers and does to both particles, if it lives.
+    /// What the contact of a lane remembers, if it lives.
     #[inline(always)]
-    pub fn result(&self, lane: usize) -> Option<(H, [Load; 2])> {
-        let force = get(&self.force, lane);
-        let on_i = Load { force, torque: get(&self.torque_i, lane) };
-        let on_j = Load { force: -force, torque: get(&self.torque_j, lane) };
-        (self.alive[lane] != 0).then_some((self.history[lane], [on_i, on_j]))
+    pub fn history(&self, lane: usize) -> Option<&H> {
+        (self.alive[lane] != 0).then_some(&self.history[lane])
+    }
+
+    /// Adds what the contact of a lane does to i (`END` 0) or j (1).
+    #[inline(always)]
+    pub fn push<const END: usize>(&self, lane: usize, load: &mut Load) {
+        let ([x, y, z, first], torque) = (self.force[END][lane], self.torque[lane]);
+        load.force.x += x;
+        load.force.y += y;
+        load.force.z += z;
+        load.torque.x += first;
+        load.torque.y += torque[2 * END];
+        load.torque.z += torque[2 * END + 1];
     }
 }

@@ -14,7 +14,7 @@ use crate::neighbors::Near;
 use crate::particles::{Load, Motion, Place};
 
 use super::Simulation;
-use super::batch::{Batch, FEWEST, LANES};
+use super::batch::{self, Batch, FEWEST, LANES, Row};
 
 /// Share by which the first, cheap test of a pair is wider than the law's own.
 const SLACK: f64 = 1.0 + 1e-12;
@@ -30,6 +30,7 @@ struct View<'a, M: ContactModel> {
     bodies: &'a [Body],
     plane_radius_factor: Option<f64>,
     shifts: [Vector; 32],
+    rows: [Row; 32],
     /// Gap up to which candidates are selected anew [m].
     selection: Option<f64>,
     elapsed: f64,
@@ -49,6 +50,7 @@ impl<M: ContactModel> Simulation<M> {
             bodies: &self.bodies,
             plane_radius_factor: self.plane_radius_factor,
             shifts: self.domain.shifts(),
+            rows: self.domain.shifts().map(|shift| batch::row(&shift)),
             selection: self.neighbors.selection(self.fastest),
             elapsed,
         };
@@ -128,15 +130,17 @@ impl<M: ContactModel> View<'_, M> {
         } else {
             false
         };
+        let (first, inside) = (block.first, block.inside);
+        let (candidates, exports) = (&block.pairs.candidates[..], &mut block.exports[..]);
+        let (histories, living) = (&mut block.pairs.history[..], &mut block.pairs.alive[..]);
         let mut done = 0;
         while block.active.len() - done >= FEWEST {
-            let count = (block.active.len() - done).min(LANES);
-            for lane in 0..count {
-                let slot = block.active[done + lane] as usize;
-                let pair = block.pairs.candidates[slot];
+            let slots = &block.active[done..block.active.len().min(done + LANES)];
+            for (slot, lane) in slots.iter().zip(0..LANES) {
+                let pair = candidates[*slot as usize];
                 let places = [&self.place[pair.i()], &self.place[pair.j()]];
                 let motions = [&self.motion[pair.i()], &self.motion[pair.j()]];
-                batch.fill(lane, places, motions, &self.shifts[pair.image()], &block.pairs.history[slot]);
+                batch.fill(lane, places, motions, &self.rows[pair.image()], &histories[*slot as usize]);
                 if !only {
                     let row = motions[0].material as usize * self.materials;
                     if let Some(properties) = &self.table[row + motions[1].material as usize] {
@@ -145,19 +149,30 @@ impl<M: ContactModel> View<'_, M> {
                 }
             }
             batch.evaluate(self.model, *self.shared, self.elapsed);
-            for lane in 0..count {
-                let slot = block.active[done + lane] as usize;
-                let result = batch.result(lane);
-                block.pairs.alive[slot] = result.is_some();
-                if let Some((history, ends)) = result {
-                    block.pairs.history[slot] = history;
-                    deliver(slot, ends, block, loads);
+            for (slot, lane) in slots.iter().zip(0..LANES) {
+                let slot = *slot as usize;
+                let pair = candidates[slot];
+                let history = batch.history(lane);
+                living[slot] = history.is_some();
+                histories[slot] = history.copied().unwrap_or_default();
+                if slot < inside {
+                    if history.is_some() {
+                        batch.push::<0>(lane, &mut loads[pair.i() - first]);
+                        batch.push::<1>(lane, &mut loads[pair.j() - first]);
+                    }
                 } else {
-                    block.pairs.history[slot] = M::History::default();
-                    withhold(slot, block);
+                    let export = &mut exports[slot - inside];
+                    *export = Load::default();
+                    if history.is_some() && pair.i() < pair.j() {
+                        batch.push::<0>(lane, &mut loads[pair.i() - first]);
+                        batch.push::<1>(lane, export);
+                    } else if history.is_some() {
+                        batch.push::<1>(lane, &mut loads[pair.j() - first]);
+                        batch.push::<0>(lane, export);
+                    }
                 }
             }
-            done += count;
+            done += slots.len();
         }
         self.singles::<false>(done, block, loads);
     }
