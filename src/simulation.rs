@@ -178,8 +178,7 @@ impl<M: ContactModel> Simulation<M> {
                 motion.velocity -= self.gravity * (0.5 * self.time_step);
             }
         }
-        self.forces(0.0);
-        self.arrive();
+        self.forces(0.0, self.arrival());
     }
 
     /// Goes on to `step`, where loads are complete and velocities as the scheme stores them.
@@ -198,12 +197,8 @@ impl<M: ContactModel> Simulation<M> {
                 self.rebuild()?;
             }
             self.step += 1;
-            self.forces(self.time_step);
-            if self.step < step {
-                self.arrive_and_depart();
-            } else {
-                self.arrive();
-            }
+            let then = if self.step < step { self.arrival_and_departure() } else { self.arrival() };
+            self.forces(self.time_step, then);
         }
         Ok(())
     }

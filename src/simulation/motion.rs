@@ -11,13 +11,13 @@ use crate::case::scene::Start;
 use crate::contacts::{BLOCK, Contacts};
 use crate::laws::memory::Memory;
 use crate::laws::model::ContactModel;
-use crate::particles::{Load, Motion, Place};
+use crate::particles::{Load, Motion, Particles, Place};
 
 use super::Simulation;
 
 /// What one pass does.
 #[derive(Clone, Copy)]
-struct Pass {
+pub(super) struct Pass {
     /// Whether loads are completed by the exports of other blocks.
     gather: bool,
     /// Kick that ends a step [s].
@@ -33,7 +33,7 @@ struct Pass {
 
 /// How far particles moved.
 #[derive(Clone, Copy, Default)]
-struct Moved {
+pub(super) struct Moved {
     /// Largest squared displacement since the list was built, if it was looked at [m2].
     furthest: f64,
     /// Largest squared speed [m2/s2].
@@ -41,13 +41,13 @@ struct Moved {
 }
 
 impl Moved {
-    fn or(self, other: Self) -> Self {
+    pub(super) fn or(self, other: Self) -> Self {
         Self { furthest: self.furthest.max(other.furthest), speed: self.speed.max(other.speed) }
     }
 }
 
 /// Particles of one block.
-struct Chunk<'a> {
+pub(super) struct Chunk<'a> {
     first: usize,
     place: &'a mut [Place],
     motion: &'a mut [Motion],
@@ -58,13 +58,13 @@ struct Chunk<'a> {
 
 impl<M: ContactModel> Simulation<M> {
     /// Ends a step: loads are gathered and velocities kicked.
-    pub(super) fn arrive(&mut self) {
+    pub(super) fn arrival(&self) -> Pass {
         let close = match self.start {
             Start::Synchronized if self.step == 0 => 0.0,
             Start::Synchronized => 0.5 * self.time_step,
             Start::Staggered => self.time_step,
         };
-        self.pass(Pass { gather: true, close, open: 0.0, drift: 0.0, measure: false, gravity: self.gravity });
+        Pass { gather: true, close, open: 0.0, drift: 0.0, measure: false, gravity: self.gravity }
     }
 
     /// Begins a step: velocities are kicked and particles moved.
@@ -74,10 +74,10 @@ impl<M: ContactModel> Simulation<M> {
     }
 
     /// Ends a step and begins the next.
-    pub(super) fn arrive_and_depart(&mut self) {
+    pub(super) fn arrival_and_departure(&self) -> Pass {
         let ((open, drift), measure) = (self.departure(), self.neighbors.may_be_stale());
         let close = if self.start == Start::Staggered { self.time_step } else { open };
-        self.pass(Pass { gather: true, close, open, drift, measure, gravity: self.gravity });
+        Pass { gather: true, close, open, drift, measure, gravity: self.gravity }
     }
 
     fn departure(&self) -> (f64, f64) {
@@ -87,10 +87,9 @@ impl<M: ContactModel> Simulation<M> {
         }
     }
 
-    fn pass(&mut self, pass: Pass) {
+    pub(super) fn pass(&mut self, pass: Pass) {
+        let (contacts, built) = (&self.contacts, self.neighbors.built.chunks(BLOCK));
         let particles = &mut self.particles;
-        let contacts = &self.contacts;
-        let built = self.neighbors.built.chunks(BLOCK);
         let columns = particles.place.chunks_mut(BLOCK).zip(particles.motion.chunks_mut(BLOCK));
         let columns = columns.zip(particles.load.chunks_mut(BLOCK)).zip(particles.moment_of_inertia.chunks(BLOCK));
         let mut chunks = columns.zip(built).enumerate().map(|(index, ((((place, motion), load), moment), built))| {
@@ -103,6 +102,11 @@ impl<M: ContactModel> Simulation<M> {
         } else {
             chunks.next().map_or_else(Moved::default, |mut chunk| chunk.pass(pass, contacts))
         };
+        self.note(pass, moved);
+    }
+
+    /// Notes how far particles moved in a pass.
+    pub(super) fn note(&mut self, pass: Pass, moved: Moved) {
         if pass.drift > 0.0 {
             self.stale = moved.furthest >= self.neighbors.allowance();
             self.fastest = moved.speed.sqrt() * pass.drift;
@@ -111,8 +115,22 @@ impl<M: ContactModel> Simulation<M> {
     }
 }
 
+impl<'a> Chunk<'a> {
+    /// The particles in `range`.
+    pub(super) fn of(range: std::ops::Range<usize>, particles: &'a mut Particles, built: &'a [Vector]) -> Self {
+        Self {
+            first: range.start,
+            place: &mut particles.place[range.clone()],
+            motion: &mut particles.motion[range.clone()],
+            load: &mut particles.load[range.clone()],
+            moment_of_inertia: &particles.moment_of_inertia[range.clone()],
+            built: &built[range],
+        }
+    }
+}
+
 impl Chunk<'_> {
-    fn pass<H: Memory>(&mut self, pass: Pass, contacts: &Contacts<H>) -> Moved {
+    pub(super) fn pass<H: Memory>(&mut self, pass: Pass, contacts: &Contacts<H>) -> Moved {
         let mut moved = Moved::default();
         for at in 0..self.place.len() {
             let load = &mut self.load[at];
