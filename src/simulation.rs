@@ -275,6 +275,12 @@ impl<M: ContactModel> Simulation<M> {
         self.step
     }
 
+    /// Memory of particles, contacts and the neighbour list between two rebuilds [bytes].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.particles.bytes() + self.contacts.bytes() + size_of_val(&self.neighbors.built[..])
+    }
+
     /// How often the neighbour list was built.
     #[must_use]
     pub fn rebuilds(&self) -> u64 {
