@@ -261,11 +261,12 @@ fn a_bed_is_the_same_for_the_same_seed() {
 fn a_particle_of_a_dense_bed_takes_less_than_a_kilobyte() {
     let mut setup = crowd(20, 1.0);
     setup.ledger = false;
+    setup.skin = Some(0.8e-3);
     let mut simulation = Simulation::new(&setup, MODEL).unwrap();
     simulation.advance_to(10).unwrap();
     let pairs: usize = simulation.contacts().blocks.iter().map(|block| block.pairs.candidates.len()).sum();
-    // The lattice is as dense as a jammed bed in its candidates: 5.1 pairs per particle there.
-    assert!(pairs > 4 * setup.particles.len(), "{pairs} pairs");
+    // A jammed bed has 5.1 pairs per particle within the usual skin.
+    assert!(pairs > 6 * setup.particles.len(), "{pairs} pairs");
     let bytes = simulation.bytes() / setup.particles.len();
     assert!(bytes > 200, "{bytes} bytes do not hold a particle and its pairs");
     assert!(bytes < 1000, "{bytes} bytes per particle");
@@ -280,7 +281,7 @@ fn batches_and_single_contacts_have_the_same_bits() {
             setup.ledger = ledger;
             bits(&run(&setup, 200))
         });
-        assert_eq!(states[0], states[1], "{} particles", setup.particles.len());
+        assert!(states[0] == states[1], "{} particles", setup.particles.len());
     }
 }
 
@@ -300,6 +301,6 @@ fn a_selection_that_lasts_several_steps_misses_no_contact() {
             broken.save(&mut saved);
             broken = Simulation::restore(&setup, MODEL, &saved).unwrap();
         }
-        assert_eq!(bits(&whole), bits(&broken), "velocities times {factor}");
+        assert!(bits(&whole) == bits(&broken), "velocities times {factor}");
     }
 }

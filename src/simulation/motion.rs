@@ -105,12 +105,24 @@ impl<M: ContactModel> Simulation<M> {
         self.note(pass, moved);
     }
 
+    /// Largest squared displacement since the list was built [m2].
+    fn furthest(&self) -> f64 {
+        let places = self.particles.place.iter().zip(&self.neighbors.built);
+        places.map(|(place, built)| (place.position - built).norm_squared()).fold(0.0, f64::max)
+    }
+
     /// Notes how far particles moved in a pass.
     pub(super) fn note(&mut self, pass: Pass, moved: Moved) {
         if pass.drift > 0.0 {
-            self.stale = moved.furthest >= self.neighbors.allowance();
             self.fastest = moved.speed.sqrt() * pass.drift;
             self.neighbors.moved(self.fastest);
+            let furthest = match (pass.measure, self.neighbors.may_be_stale()) {
+                (true, _) => moved.furthest,
+                // The first step by which half the skin may be used up: nobody has looked yet.
+                (false, true) => self.furthest(),
+                (false, false) => return,
+            };
+            self.stale = furthest >= self.neighbors.allowance();
         }
     }
 }
