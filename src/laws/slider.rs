@@ -132,7 +132,7 @@ pub trait Carry {
 impl Rules {
     /// A value and its increment, in the order of the rules.
     #[inline(always)]
-    fn grow(&self, start: &Vector, stored: &Vector, increment: Vector, turn: &impl Carry) -> Vector {
+    fn grow(self, start: &Vector, stored: &Vector, increment: Vector, turn: &impl Carry) -> Vector {
         match self.order {
             Order::RotateFirst => start + increment,
             Order::IncrementFirst => turn.carry(&(stored + increment)),

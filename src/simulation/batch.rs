@@ -104,6 +104,7 @@ impl<H: Copy + Default> Batch<H> {
     pub fn evaluate<M: ContactModel<History = H>>(&mut self, model: M, shared: M::Shared, elapsed: f64) {
         // Rows of another length need a place of their own.
         let mut histories = self.history;
+        #[expect(clippy::needless_range_loop, reason = "one index for all columns, which the compiler vectorises")]
         for lane in 0..LANES {
             let [x, y, z, _] = self.branch[lane];
             let branch = Vector::new(x, y, z);
