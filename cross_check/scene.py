@@ -7,6 +7,25 @@ import json
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from cross_check.contact_model import FREE, FRICTIONLESS, Model, NormalModel, model_from_json
+from cross_check.mirror_options import Mirror, mirror_from_json, mirror_to_json, variant_to_json
+
+__all__ = [
+    "Body",
+    "Domain",
+    "Material",
+    "Mirror",
+    "Model",
+    "Motion",
+    "NormalModel",
+    "Pair",
+    "Particle",
+    "Scene",
+    "Shape",
+    "Vector",
+    "from_json",
+]
+
 Vector = tuple[float, float, float]
 
 
@@ -32,36 +51,21 @@ class Material:
 
 @dataclass(frozen=True)
 class Pair:
-    """Mixed values of two materials: E* and G* [Pa], fraction of critical damping [-], restitution as asked [-]."""
+    """Mixed values of two materials: E* and G* [Pa], fraction of critical damping [-], restitution as asked [-].
+
+    Coefficients of friction, rolling and twisting friction [-] and work of adhesion [J/m2] are None where no law of the
+    model asks for them.
+    """
 
     between: tuple[int, int]
     effective_young: float
     effective_shear: float | None
     damping_ratio: float
     restitution: float | None
-
-
-@dataclass(frozen=True)
-class NormalModel:
-    """Normal law by name and whether its force is cut at zero: `on`, `off` or `default`."""
-
-    law: str
-    force_cut: str
-
-
-@dataclass(frozen=True)
-class Model:
-    """The composed contact model."""
-
-    normal: NormalModel
-
-
-@dataclass(frozen=True)
-class Mirror:
-    """Engine options that reproduce another code; the plain engine has a plane without curvature, `synchronized`."""
-
-    plane_radius_factor: float | None
-    start: str
+    friction: float | None = None
+    rolling_friction: float | None = None
+    twisting_friction: float | None = None
+    work_of_adhesion: float | None = None
 
 
 @dataclass(frozen=True)
@@ -138,15 +142,40 @@ class Scene:
 
     def with_model(self, *, force_cut: str) -> Scene:
         """This scene with another rule for the cut of the normal force at zero."""
-        return replace(self, model=Model(replace(self.model.normal, force_cut=force_cut)))
+        return replace(self, model=replace(self.model, normal=replace(self.model.normal, force_cut=force_cut)))
 
     def to_json(self) -> str:
         """The scene as the engine reads it."""
-        return json.dumps(asdict(self), sort_keys=True)
+        raw = asdict(self)
+        raw["pairs"] = [_pair_to_json(pair) for pair in self.pairs]
+        raw["model"] = _model_to_json(self.model)
+        raw["mirror"] = mirror_to_json(self.mirror)
+        return json.dumps(raw, sort_keys=True)
 
     def digest(self) -> str:
         """Hash of the whole scene, hexadecimal."""
         return hashlib.blake2b(self.to_json().encode(), digest_size=16).hexdigest()
+
+
+# Values of a pair that stand only where a law asks for them.
+_OPTIONAL = ("friction", "rolling_friction", "twisting_friction", "work_of_adhesion")
+
+
+def _pair_to_json(pair: Pair) -> dict[str, Any]:
+    return {key: value for key, value in asdict(pair).items() if key not in _OPTIONAL or value is not None}
+
+
+def _model_to_json(model: Model) -> dict[str, Any]:
+    """The laws; a frictionless or free one is not stated."""
+    raw = asdict(model)
+    if model.tangential == FRICTIONLESS:
+        del raw["tangential"]
+    if model.moments == FREE:
+        del raw["moments"]
+    elif "stiffness" in raw["moments"]:
+        parts = {name: variant_to_json(raw["moments"][name]) for name in ("stiffness", "dashpot", "twisting")}
+        raw["moments"] |= parts
+    return raw
 
 
 def _vector(raw: list[float]) -> Vector:
@@ -191,8 +220,8 @@ def from_json(raw: dict[str, Any]) -> Scene:
         "domain": Domain(_vector(raw["domain"]["min"]), _vector(raw["domain"]["max"]), (x, y, z)),
         "materials": tuple(Material(**item) for item in raw["materials"]),
         "pairs": tuple(_pair(item) for item in raw["pairs"]),
-        "model": Model(NormalModel(**raw["model"]["normal"])),
-        "mirror": Mirror(**raw["mirror"]),
+        "model": model_from_json(raw["model"]),
+        "mirror": mirror_from_json(raw["mirror"]),
         "bodies": tuple(_body(item) for item in raw["bodies"]),
         "particles": tuple(_particle(item) for item in raw["particles"]),
     }

@@ -6,6 +6,7 @@
 
 #![allow(clippy::inline_always, reason = "contacts are evaluated several at a time only where all laws are inlined")]
 
+pub mod any;
 pub mod drive;
 pub mod memory;
 pub mod mirror;

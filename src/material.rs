@@ -16,6 +16,8 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use crate::laws::PairLaw;
+
 /// A solid, or an ideal one that does not deform.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -62,7 +64,7 @@ impl Material {
 }
 
 /// What two materials make together.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PairProperties {
     /// Indices of the two materials.
@@ -75,9 +77,38 @@ pub struct PairProperties {
     pub damping_ratio: f64,
     /// Restitution as the case asked for it [-], if it did.
     pub restitution: Option<f64>,
-    /// Coefficient of friction [-], for the laws that ask for it.
+    /// Coefficient of friction [-], where a law asks for it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
+    /// Coefficient of rolling friction [-], where a law asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling_friction: Option<f64>,
+    /// Coefficient of twisting friction [-], where a law asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub twisting_friction: Option<f64>,
+    /// Work of adhesion W [J/m2], where a law asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub work_of_adhesion: Option<f64>,
+}
+
+impl PairProperties {
+    /// What a law sees of a contact of this pair with R* [m] and m* [kg].
+    #[must_use]
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "formed anew at every contact")]
+    pub fn law(&self, effective_radius: f64, effective_mass: f64) -> PairLaw {
+        PairLaw {
+            effective_young: self.effective_young,
+            effective_shear: self.effective_shear.unwrap_or_default(),
+            friction: self.friction.unwrap_or_default(),
+            effective_radius,
+            effective_mass,
+            damping_ratio: self.damping_ratio,
+            rolling_friction: self.rolling_friction.unwrap_or_default(),
+            twisting_friction: self.twisting_friction.unwrap_or_default(),
+            work_of_adhesion: self.work_of_adhesion.unwrap_or_default(),
+        }
+    }
 }
 
 /// 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [Pa]; infinite for two rigid solids.

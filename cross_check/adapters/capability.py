@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from cross_check.adapters.interface import InvalidScene, NotComparable, Row
 from cross_check.adapters.render import number, numbers, word
-from cross_check.scene import Mirror, Model, Pair, Scene, Vector
+from cross_check.scene import Mirror, Pair, Scene, Vector
 
 AXES = "xyz"
 # Young's modulus [Pa] typed for a rigid material: (1 - nu^2)/E vanishes beside every real material, to the last bit.
@@ -30,7 +30,7 @@ class Plane:
 
 
 def check(scene: Scene) -> None:
-    """Raises InvalidScene for a scene that no code can run, NotComparable for what no translation has yet."""
+    """Raises InvalidScene for a scene that no code can run, NotComparable for particles that no translation has."""
     for name in (scene.name, *(m.name for m in scene.materials), *(b.name for b in scene.bodies)):
         word(name)
     if scene.steps <= 0 or scene.output_every <= 0 or scene.steps % scene.output_every:
@@ -42,10 +42,6 @@ def check(scene: Scene) -> None:
         raise InvalidScene(f"time_step {scene.time_step!r} is not positive")
     if not scene.particles:
         raise InvalidScene("the scene has no particles")
-    if scene.model.normal.law != "hertz":
-        raise NotComparable(f"the normal law {scene.model.normal.law} has no translation (known: hertz)")
-    if scene.model.normal.force_cut not in ("on", "off", "default"):
-        raise InvalidScene(f"force_cut {scene.model.normal.force_cut!r} is unknown (known: on, off, default)")
     for boundary in scene.domain.boundary:
         if boundary not in ("open", "periodic"):
             raise InvalidScene(f"boundary {boundary!r} is unknown (known: open, periodic)")
@@ -136,20 +132,14 @@ def check_effective_young(scene: Scene, pair: Pair, code: str) -> None:
         )
 
 
-def damped(scene: Scene) -> bool:
-    """Whether any contact that can happen in the scene has a dashpot."""
-    return any(pair.damping_ratio > 0 for pair in touching(scene))
-
-
 def resolved_cut(scene: Scene, default: str) -> str:
     """`on` or `off`: what the scene says, or what the code does when nothing is said."""
     return default if scene.model.normal.force_cut == "default" else scene.model.normal.force_cut
 
 
-def mirrored(scene: Scene, cut: str, plane_radius_factor: float | None, start: str) -> Scene:
+def mirrored(scene: Scene, cut: str, mirror: Mirror) -> Scene:
     """The scene with the cut at zero resolved and the engine options of a mirror."""
-    model = Model(replace(scene.model.normal, force_cut=cut))
-    return replace(scene, model=model, mirror=Mirror(plane_radius_factor, start))
+    return replace(scene.with_model(force_cut=cut), mirror=mirror)
 
 
 def gravity(scene: Scene) -> tuple[float, Vector]:

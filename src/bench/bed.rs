@@ -133,6 +133,7 @@ impl Bed {
             damping_ratio: material::damping_ratio(self.restitution),
             restitution: Some(self.restitution),
             friction: Some(friction),
+            ..PairProperties::default()
         }
     }
 

@@ -3,10 +3,14 @@
 //! The schema names every law that a case may ask for; [`crate::laws`] holds those that this build computes, and
 //! preparing a scene refuses the others by name. Variants without values have braces: serde refuses unknown keys only there.
 
+mod rolling;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::quantity::{Dashpot, Duration, Force, Length, Number, Stiffness, SurfaceEnergy, Temperature};
+pub use rolling::{RollingDashpot, RollingLimit, RollingStiffness, Twisting};
+
+use super::quantity::{Dashpot, Duration, Force, Length, Number, Pressure, Stiffness, SurfaceEnergy, Temperature};
 
 /// The composed contact model.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -34,7 +38,39 @@ pub enum NormalLaw {
     /// Johnson, Kendall, Roberts (1971); its values are those of the pair.
     Jkr {},
     /// Derjaguin, Muller, Toporov (1975); its values are those of the pair.
-    Dmt {},
+    Dmt {
+        /// Whether the force of Hertz and dashpot together is cut at zero.
+        force_cut: ForceCut,
+    },
+    /// Hertz with an attraction in proportion to the area in which the undeformed spheres overlap.
+    Sjkr {
+        /// Cohesion energy density [J/m3 = Pa].
+        energy_density: Pressure,
+        /// Whether the force without the attraction is cut at zero.
+        force_cut: ForceCut,
+    },
+    /// Hertz with an attraction in proportion to an area linear in the overlap.
+    Sjkr2 {
+        /// Cohesion energy density [J/m3 = Pa].
+        energy_density: Pressure,
+        /// Whether the force without the attraction is cut at zero.
+        force_cut: ForceCut,
+    },
+    /// Hysteretic linear contact with a limit of cohesion (Luding 2008).
+    LudingHysteretic {
+        /// Loading stiffness [N/m].
+        k1: Stiffness,
+        /// Largest unloading stiffness, above `k1` [N/m].
+        kp: Stiffness,
+        /// Cohesive stiffness [N/m].
+        kc: Stiffness,
+        /// Plasticity depth: overlap over 2 R* at which the unloading stiffness stops growing [-].
+        plasticity_depth: Number,
+        /// Dashpot constant [kg/s].
+        dashpot: Dashpot,
+        /// Whether the dashpot may not pull beyond the elastic force.
+        force_cut: ForceCut,
+    },
     /// Linear spring and dashpot.
     LinearSpringDashpot {
         /// Stiffness [N/m].
@@ -211,6 +247,8 @@ pub enum History {
     Force,
     /// The tangential force, rescaled when the contact unloads (Thornton, Cummins, Cleary 2011).
     ForceRescaled,
+    /// What each code remembers by itself; natively the rescaled force.
+    Default,
 }
 
 /// Moment laws.
@@ -220,9 +258,21 @@ pub enum MomentLaw {
     /// No moments.
     Free {},
     /// Elastic-plastic rolling spring.
-    ElasticPlasticRolling {},
+    ElasticPlasticRolling {
+        /// Stiffness.
+        stiffness: RollingStiffness,
+        /// Dashpot.
+        dashpot: RollingDashpot,
+        /// Largest moment.
+        limit: RollingLimit,
+        /// Twisting about the normal.
+        twisting: Twisting,
+    },
     /// Rolling torque of constant size.
-    ConstantTorque {},
+    ConstantTorque {
+        /// Whether it opposes the whole relative spin, or only its part across the normal.
+        torsion: bool,
+    },
     /// Bending and twisting of plastic-cohesive contacts (Walton).
     WaltonBendingTwisting {
         /// Widening of the bending arm [-].

@@ -1,6 +1,8 @@
 //! Scenes: one runnable problem with nothing left to resolve (docs/formats.md).
 
 mod duration;
+mod mirror;
+mod specification;
 mod supported;
 mod valid;
 
@@ -8,7 +10,9 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Damping, ForceCut, NormalLaw};
+pub use mirror::{Mirror, Start};
+
+use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
 use super::protocol::{Motion, Shape};
 use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Level};
@@ -63,27 +67,26 @@ pub struct SceneDomain {
 #[expect(missing_docs, reason = "docs/formats.md describes every field")]
 pub struct SceneModel {
     pub normal: NormalLaw,
+    #[serde(default = "frictionless", skip_serializing_if = "is_frictionless")]
+    pub tangential: TangentialLaw,
+    #[serde(default = "free", skip_serializing_if = "is_free")]
+    pub moments: MomentLaw,
 }
 
-/// Engine options that reproduce another code; the plain engine uses [`Mirror::default`].
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mirror {
-    /// A plane acts like a sphere whose radius is this multiple of the particle's.
-    pub plane_radius_factor: Option<f64>,
-    /// Where velocities start.
-    pub start: Start,
+const fn frictionless() -> TangentialLaw {
+    TangentialLaw::Frictionless {}
 }
 
-/// Where velocities start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Start {
-    /// With the positions: velocity Verlet.
-    #[default]
-    Synchronized,
-    /// Half a step before them: leapfrog.
-    Staggered,
+fn is_frictionless(law: &TangentialLaw) -> bool {
+    matches!(law, TangentialLaw::Frictionless {})
+}
+
+const fn free() -> MomentLaw {
+    MomentLaw::Free {}
+}
+
+fn is_free(law: &MomentLaw) -> bool {
+    matches!(law, MomentLaw::Free {})
 }
 
 /// A wall of a scene.
@@ -167,7 +170,11 @@ pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Pro
         domain: SceneDomain { min: si(&case.domain.min), max: si(&case.domain.max), boundary: case.domain.boundary },
         materials: case.materials.iter().map(solid).collect(),
         pairs: Vec::new(),
-        model: SceneModel { normal: case.model.normal.clone() },
+        model: SceneModel {
+            normal: case.model.normal.clone(),
+            tangential: case.model.tangential.clone(),
+            moments: case.model.moments.clone(),
+        },
         mirror: Mirror::default(),
         bodies: Vec::new(),
         particles: Vec::new(),
@@ -177,8 +184,9 @@ pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Pro
     scene.particles = case.particles.iter().filter_map(|source| single(case, source)).collect();
     weighable(&scene)?;
     drop_unused_materials(&mut scene);
+    let laws = scene.model.specification(&scene.mirror)?;
     let approaches = approaches(case, &scene)?;
-    duration::steps(case, &mut scene, &approaches)?;
+    duration::steps(case, &mut scene, &laws.normal, &approaches)?;
     duration::travel(&scene)?;
     Ok(scene)
 }
@@ -237,7 +245,10 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
             effective_shear: shear.is_finite().then_some(shear),
             damping_ratio,
             restitution,
-            friction: None,
+            friction: pair.values.friction.map(Number::get),
+            rolling_friction: pair.values.rolling_friction.map(Number::get),
+            twisting_friction: pair.values.twisting_friction.map(Number::get),
+            work_of_adhesion: pair.values.work_of_adhesion.map(Quantity::si),
         }
     };
     case.pairs.iter().map(mixed).collect()
@@ -320,16 +331,7 @@ fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem>
             }
             let speed = -velocity.dot(&geometry.normal);
             if let (true, Some(pair)) = (speed > 0.0, scene.pair(materials[0], materials[1])) {
-                found.push(StartApproach {
-                    law: PairLaw {
-                        effective_young: pair.effective_young,
-                        effective_radius: geometry.effective_radius(),
-                        effective_mass: mass,
-                        damping_ratio: pair.damping_ratio,
-                        ..PairLaw::default()
-                    },
-                    speed,
-                });
+                found.push(StartApproach { law: pair.law(geometry.effective_radius(), mass), speed });
             }
             Ok(())
         };

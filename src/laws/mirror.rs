@@ -74,7 +74,7 @@ impl Code {
             (Rolling::ConstantTorque { .. }, _) => false,
             (Rolling::ElasticPlasticRolling { spring }, _) => match spring.stiffness {
                 Stiffness::Tangential | Stiffness::Normal { .. } => self == Self::Liggghts,
-                Stiffness::Constant { .. } => self == Self::Yade,
+                Stiffness::Constant { .. } => self != Self::Liggghts,
                 Stiffness::PerRadiusSquared { .. } => self == Self::Lammps,
             },
         };
@@ -82,7 +82,7 @@ impl Code {
             return Err(match self {
                 Self::Liggghts => "constant_torque, or a spring with tangential or normal stiffness",
                 Self::Yade => "a spring with constant stiffness",
-                Self::Lammps => "a spring with stiffness per_radius_squared",
+                Self::Lammps => "a spring with stiffness per_radius_squared or constant",
             });
         }
         match (&moments.twisting, self) {
@@ -101,15 +101,15 @@ impl Code {
         };
         let Specification { normal, tangential, moments } = specification;
         if let Err(allowed) = self.normal(normal) {
-            return refuse("model.normal", format!("{normal:?}"), allowed);
+            return refuse("model.normal", text(normal), allowed);
         }
         match tangential {
             Tangential::Mindlin { options, .. } | Tangential::LinearHistory { options, .. } if !self.has(options) => {
-                return refuse("model.tangential.options", format!("{options:?}"), "the options of that code only");
+                return refuse("model.tangential.options", text(options), "the options of that code only");
             }
             _ => {}
         }
-        self.moments(moments).or_else(|allowed| refuse("model.moments", format!("{moments:?}"), allowed))
+        self.moments(moments).or_else(|allowed| refuse("model.moments", text(moments), allowed))
     }
 
     const fn name(self) -> &'static str {
@@ -119,6 +119,11 @@ impl Code {
             Self::Lammps => "lammps",
         }
     }
+}
+
+/// A law as a scene states it.
+fn text(law: &impl Serialize) -> String {
+    serde_json::to_string(law).unwrap_or_default()
 }
 
 #[cfg(test)]

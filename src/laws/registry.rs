@@ -1,30 +1,28 @@
 //! The laws by name: typed specifications, their checks, and the list of models that are compiled.
 //!
-//! A specification is matched once, before a run; what it names is monomorphised, so no contact pays for the choice.
-//!
 //! | normal | tangential | moments |
 //! |---|---|---|
 //! | hertz, dmt, sjkr, sjkr2 | frictionless, mindlin | any with mindlin |
 //! | `linear_spring_dashpot`, `luding_hysteretic` | frictionless, `linear_history` | any with `linear_history` |
+//!
+//! A specification is matched once, before a run. The models of large beds, hertz with nothing or with plain mindlin, are
+//! compiled for themselves; all others share one model that chooses its laws at each contact ([`super::any`]): each
+//! compiled model is one more copy of the sweep.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::Problem;
 
+use super::PairLaw;
+use super::any::{AnyNormal, AnyTangential};
 use super::model::{Composed, ContactModel, Free, Frictionless};
 use super::moments::any::Moments;
 use super::normal::cohesive::DashpotLimit;
-use super::normal::dmt::Dmt;
 use super::normal::hertz::Hertz;
 use super::normal::hysteretic_branches::Rule;
 use super::normal::linear_spring_dashpot::LinearSpringDashpot;
-use super::normal::luding_hysteretic::LudingHysteretic;
-use super::normal::sjkr::{Lens, Sjkr};
-use super::normal::sjkr2::{Linear, Sjkr2};
-use super::tangential::linear_history::LinearHistory;
 use super::tangential::mindlin::Mindlin;
 use super::tangential::options::{Dashpot, Options};
-use super::{NormalLaw, TangentialLaw};
 
 /// A normal law; values that belong to pairs are not here.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,6 +59,21 @@ pub struct Specification {
     pub moments: Moments,
 }
 
+impl Normal {
+    /// Duration of an elastic impact at `speed` [m/s], along the loading branch where there are several [s].
+    #[must_use]
+    pub fn impact_duration(&self, pair: &PairLaw, speed: f64) -> f64 {
+        match *self {
+            Self::Hertz { .. } | Self::Dmt { .. } | Self::Sjkr { .. } | Self::Sjkr2 { .. } => {
+                Hertz::elastic_impact(pair, speed).duration
+            }
+            Self::LinearSpringDashpot { stiffness, .. } | Self::LudingHysteretic { k1: stiffness, .. } => {
+                LinearSpringDashpot::half_period(stiffness, pair.effective_mass)
+            }
+        }
+    }
+}
+
 /// What is done with a model once its type is known.
 pub trait Visitor {
     /// What comes of it.
@@ -70,72 +83,65 @@ pub trait Visitor {
     fn visit<M: ContactModel>(self, model: M) -> Self::Output;
 }
 
+/// Values that the laws of a model ask of each pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, clippy::struct_excessive_bools, reason = "the names of the values of a pair")]
+pub struct Asked {
+    pub effective_shear: bool,
+    pub friction: bool,
+    pub rolling_friction: bool,
+    pub twisting_friction: bool,
+    pub work_of_adhesion: bool,
+}
+
 impl Specification {
+    /// What the laws ask of each pair.
+    #[must_use]
+    pub fn asks(&self) -> Asked {
+        Asked {
+            effective_shear: matches!(self.tangential, Tangential::Mindlin { .. }),
+            friction: self.tangential != Tangential::Frictionless,
+            rolling_friction: self.moments.rolling.capped(),
+            twisting_friction: self.moments.twisting.is_some_and(|law| law.capped()),
+            work_of_adhesion: matches!(self.normal, Normal::Dmt { .. }),
+        }
+    }
+
     /// Hands the model to `visitor`.
     ///
     /// # Errors
     /// A value is outside its law's range, or no model of these laws is compiled.
     pub fn build<V: Visitor>(&self, visitor: V) -> Result<V::Output, Problem> {
         self.check()?;
-        match self.normal {
-            Normal::Hertz { force_cut } => self.spot(Hertz { force_cut }, visitor),
-            Normal::Dmt { force_cut, dashpot_limit } => {
-                self.spot(Dmt { dashpot_limit, ..Dmt::new(force_cut) }, visitor)
+        let Self { normal, tangential, moments } = *self;
+        Ok(match (normal, tangential) {
+            (Normal::Hertz { force_cut }, Tangential::Frictionless) => {
+                visitor.visit(Composed { normal: Hertz { force_cut }, tangential: Frictionless, moments: Free })
             }
-            Normal::Sjkr { force_cut, energy_density } => {
-                self.spot(Sjkr::with_hertz(force_cut, Lens { energy_density }), visitor)
-            }
-            Normal::Sjkr2 { force_cut, energy_density } => {
-                self.spot(Sjkr2::with_hertz(force_cut, Linear { energy_density }), visitor)
-            }
-            Normal::LinearSpringDashpot { stiffness, dashpot, force_cut } => {
-                self.linear(LinearSpringDashpot { stiffness, dashpot, force_cut }, visitor)
-            }
-            Normal::LudingHysteretic { k1, kp, kc, plasticity_depth, dashpot, force_cut, rule } => {
-                let (loading, unloading, cohesive) = (k1, kp, kc);
-                let law = LudingHysteretic { loading, unloading, cohesive, plasticity_depth, dashpot, force_cut, rule };
-                self.linear(law, visitor)
-            }
-        }
-    }
-
-    /// Models of a law with the contact spot of Hertz.
-    fn spot<N: NormalLaw, V: Visitor>(&self, normal: N, visitor: V) -> Result<V::Output, Problem> {
-        match self.tangential {
-            Tangential::Frictionless => self.without_friction(normal, visitor),
-            Tangential::Mindlin { dashpot: Dashpot::CriticalShare, options }
-                if options == Options::plain() && self.moments == Moments::NONE =>
+            (Normal::Hertz { force_cut }, Tangential::Mindlin { dashpot: Dashpot::CriticalShare, options })
+                if options == Options::plain() && moments == Moments::NONE =>
             {
-                Ok(visitor.visit(Composed { normal, tangential: Mindlin::plain(), moments: Free }))
+                visitor.visit(Composed { normal: Hertz { force_cut }, tangential: Mindlin::plain(), moments: Free })
             }
-            Tangential::Mindlin { dashpot, options } => {
-                Ok(self.compose(normal, Mindlin { choices: options, dashpot }, visitor))
-            }
-            Tangential::LinearHistory { .. } => Err(unknown("linear_history", "frictionless and mindlin")),
-        }
+            _ => visitor.visit(Composed {
+                normal: AnyNormal::new(&normal),
+                tangential: AnyTangential::new(&tangential),
+                moments,
+            }),
+        })
     }
 
-    /// Models of a law with a constant loading stiffness.
-    fn linear<N: NormalLaw, V: Visitor>(&self, normal: N, visitor: V) -> Result<V::Output, Problem> {
+    /// Refuses laws that do not stand together.
+    fn partners(&self) -> Result<(), Problem> {
+        let linear = matches!(self.normal, Normal::LinearSpringDashpot { .. } | Normal::LudingHysteretic { .. });
         match self.tangential {
-            Tangential::Frictionless => self.without_friction(normal, visitor),
-            Tangential::LinearHistory { stiffness_ratio, dashpot, options } => {
-                Ok(self.compose(normal, LinearHistory { stiffness_ratio, dashpot, choices: options }, visitor))
+            Tangential::LinearHistory { .. } if !linear => Err(unknown("linear_history", "frictionless and mindlin")),
+            Tangential::Mindlin { .. } if linear => Err(unknown("mindlin", "frictionless and linear_history")),
+            Tangential::Frictionless if self.moments != Moments::NONE => {
+                Err(Problem::new("model.moments", "a moment law", "none where there is no friction"))
             }
-            Tangential::Mindlin { .. } => Err(unknown("mindlin", "frictionless and linear_history")),
+            _ => Ok(()),
         }
-    }
-
-    fn without_friction<N: NormalLaw, V: Visitor>(&self, normal: N, visitor: V) -> Result<V::Output, Problem> {
-        if self.moments == Moments::NONE {
-            Ok(visitor.visit(Composed { normal, tangential: Frictionless, moments: Free }))
-        } else {
-            Err(Problem::new("model.moments", "a moment law", "none where there is no friction"))
-        }
-    }
-
-    fn compose<N: NormalLaw, T: TangentialLaw, V: Visitor>(&self, normal: N, tangential: T, visitor: V) -> V::Output {
-        visitor.visit(Composed { normal, tangential, moments: self.moments })
     }
 
     /// Refuses values outside the laws' ranges.
@@ -143,6 +149,7 @@ impl Specification {
     /// # Errors
     /// The first such value: key, value, range.
     pub fn check(&self) -> Result<(), Problem> {
+        self.partners()?;
         match self.normal {
             Normal::Hertz { .. } | Normal::Dmt { .. } => {}
             Normal::Sjkr { energy_density, .. } | Normal::Sjkr2 { energy_density, .. } => {

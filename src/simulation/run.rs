@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use crate::case::model::{ForceCut, NormalLaw};
 use crate::case::scene::Scene;
 use crate::error::Error;
-use crate::laws::model::{Composed, ContactModel, Free, Frictionless};
-use crate::laws::normal::hertz::Hertz;
+use crate::laws::model::ContactModel;
+use crate::laws::registry::Visitor;
 use crate::record::Recorder;
 use crate::record::checkpoint::{self, Checkpoint};
 
@@ -50,17 +49,29 @@ pub struct Checkpoints {
 /// The scene is not valid, names a law that this build does not have, the run diverges, or a checkpoint cannot be read or written.
 pub fn run(scene: &Scene, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Result<Recorder, Error> {
     scene.check()?;
+    let refuse = |reason: String| Error::Scene { scene: scene.name(), reason };
+    let specification = scene.model.specification(&scene.mirror).map_err(|problem| refuse(problem.to_string()))?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
         .build()
-        .map_err(|error| Error::Scene { scene: scene.name(), reason: error.to_string() })?;
-    pool.install(|| match &scene.model.normal {
-        NormalLaw::Hertz { force_cut } => {
-            let normal = Hertz { force_cut: ForceCut::cuts(*force_cut) };
-            samples(scene, Composed { normal, tangential: Frictionless, moments: Free }, options, progress)
-        }
-        other => Err(Error::Scene { scene: scene.name(), reason: format!("this version has no law {other:?}") }),
-    })
+        .map_err(|error| refuse(error.to_string()))?;
+    pool.install(|| specification.build(Run { scene, options, progress }))
+        .map_err(|problem| refuse(problem.to_string()))?
+}
+
+/// A run whose model is chosen.
+struct Run<'a> {
+    scene: &'a Scene,
+    options: &'a Options,
+    progress: &'a (dyn Fn(u64) + Sync),
+}
+
+impl Visitor for Run<'_> {
+    type Output = Result<Recorder, Error>;
+
+    fn visit<M: ContactModel>(self, model: M) -> Self::Output {
+        samples(self.scene, model, self.options, self.progress)
+    }
 }
 
 fn samples<M: ContactModel>(

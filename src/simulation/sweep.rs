@@ -7,8 +7,8 @@ use crate::Vector;
 use crate::bodies::{Body, BodyShape};
 use crate::contacts::{Account, BLOCK, Block, Flow, Pair, Slots};
 use crate::geometry::{self, ContactGeometry};
+use crate::laws::Contact;
 use crate::laws::model::{Action, ContactModel};
-use crate::laws::{Contact, PairLaw};
 use crate::material::{self, PairProperties};
 use crate::neighbors::Near;
 use crate::particles::{Load, Motion, Place};
@@ -373,15 +373,8 @@ pub(super) fn contact(
     angular: [Vector; 2],
 ) -> Contact {
     let [mass_i, mass_j] = masses;
-    let pair = PairLaw {
-        effective_young: pair.effective_young,
-        effective_shear: pair.effective_shear.unwrap_or_default(),
-        friction: pair.friction.unwrap_or_default(),
-        effective_radius: geometry.effective_radius(),
-        effective_mass: if mass_j.is_finite() { material::reduced(mass_i, mass_j) } else { mass_i },
-        damping_ratio: pair.damping_ratio,
-        ..PairLaw::default()
-    };
+    let mass = if mass_j.is_finite() { material::reduced(mass_i, mass_j) } else { mass_i };
+    let pair = pair.law(geometry.effective_radius(), mass);
     Contact { pair, geometry, velocity, angular_i: angular[0], angular_j: angular[1], masses }
 }
 

@@ -1,12 +1,7 @@
-"""From a scene to the numbers and words of a LAMMPS deck (pair_style granular, fix wall/gran granular).
-
-Hertz: F = KN a d + c sqrt(KN a m*) v. KN is always typed (this version forms a wrong E* at walls by itself) and c
-comes from the damping word `tsuji` as a polynomial of the number typed. `limit_damping` cuts the sum at zero.
-"""
+"""From a scene to a LAMMPS deck; the contact laws stand in `laws`."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +10,7 @@ from cross_check.adapters import capability
 from cross_check.adapters.capability import AXES, Plane
 from cross_check.adapters.dump import HISTORY, PARTICLES, STATE
 from cross_check.adapters.interface import Deck, NotComparable, Row
+from cross_check.adapters.lammps import laws
 from cross_check.adapters.render import number, numbers, render, table, word
 from cross_check.scene import Pair, Scene
 
@@ -22,8 +18,6 @@ MAIN = "scene.lmp"
 WITHOUT_BINS = 64
 # LAMMPS has 32 groups, one of them is `all`.
 MOST_MATERIALS = 31
-# The fit that LAMMPS evaluates for `damping tsuji`, by rising powers of the number typed.
-TSUJI = (1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218)
 
 
 @dataclass(frozen=True)
@@ -36,56 +30,9 @@ class Wall:
     rows: list[Row]
 
 
-def force_cut(scene: Scene) -> str:
-    """`on` or `off`; LAMMPS does not cut when nothing is said."""
-    return capability.resolved_cut(scene, default="off")
-
-
-def tsuji_number(damping_ratio: float) -> float:
-    """The number to type after `tsuji` [-] so that the fit gives c = sqrt(5) b; it is no restitution.
-
-    The fit falls all the way to below zero at 1.01 (it is 3e-4 at 1), so the root is found by halving; strong dashpots
-    need a negative number.
-    """
-    wanted = math.sqrt(5.0) * damping_ratio
-
-    def fit(x: float) -> float:
-        value = 0.0
-        for factor in reversed(TSUJI):
-            value = value * x + factor
-        return value
-
-    low, high = -1.0, 1.01
-    while fit(low) < wanted:
-        low *= 2.0
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if fit(middle) > wanted else (low, middle)
-    return 0.5 * (low + high)
-
-
 def _kinds(scene: Scene) -> list[int]:
     """Material index of each atom type, in the order of the types: the materials of the particles only."""
     return sorted({particle.material for particle in scene.particles})
-
-
-def _coefficients(pair: Pair, cut: str) -> str:
-    """The words after `pair_coeff I J`, the same ones that a wall takes."""
-    stiffness = 4.0 / 3.0 * pair.effective_young
-    damping, constant = ("tsuji", tsuji_number(pair.damping_ratio)) if pair.damping_ratio > 0 else ("velocity", 0.0)
-    limit = " limit_damping" if cut == "on" else ""
-    return f"hertz {number(stiffness)} {number(constant)} tangential linear_nohistory 0 0 damping {damping}{limit}"
-
-
-def _pair_rows(scene: Scene, pair: Pair, cut: str) -> list[Row]:
-    key = capability.pair_key(scene, pair)
-    words = _coefficients(pair, cut).split()
-    modulus, ratio = number(pair.effective_young), number(pair.damping_ratio)
-    if pair.damping_ratio > 0:
-        damping = Row(f"{key}.damping_ratio", ratio, "damping tsuji ET", words[2], "-", "root of tsuji(ET) = sqrt(5) b")
-    else:
-        damping = Row(f"{key}.damping_ratio", ratio, "damping velocity GAMMA", words[2], "kg/s", "no dashpot")
-    return [Row(f"{key}.effective_young", modulus, "hertz KN", words[1], "Pa", "4/3 E*"), damping]
 
 
 def _place(plane: Plane) -> tuple[str, list[str], list[Row]]:
@@ -113,7 +60,7 @@ def _place(plane: Plane) -> tuple[str, list[str], list[Row]]:
     return f"region plane_{number_of}", commands, rows
 
 
-def _walls(scene: Scene, cut: str) -> list[Wall]:
+def _walls(scene: Scene) -> list[Wall]:
     walls: list[Wall] = []
     pairs = {pair.between: pair for pair in capability.touching(scene)}
     for plane in capability.planes(scene):
@@ -122,7 +69,7 @@ def _walls(scene: Scene, cut: str) -> list[Wall]:
         for kind, material in enumerate(_kinds(scene), start=1):
             pair = pairs[min(material, plane.material), max(material, plane.material)]
             fix = f"wall_{plane.index + 1}_{kind}"
-            model = f"{style} granular {_coefficients(pair, cut)}"
+            model = f"{style} granular {laws.coefficients(scene, pair)}"
             commands = [*before, f"fix {fix} type_{kind} {model} {words} contacts"]
             walls.append(Wall(fix, plane, commands, rows))
             before, rows = [], []
@@ -134,16 +81,14 @@ def deck(scene: Scene) -> Deck:
     capability.check(scene)
     if len(_kinds(scene)) > MOST_MATERIALS:
         raise NotComparable(f"{len(_kinds(scene))} materials of particles, LAMMPS has groups for {MOST_MATERIALS}")
-    cut = force_cut(scene)
+    laws.check(scene)
     pairs = capability.touching(scene)
-    walls = _walls(scene, cut)
+    walls = _walls(scene)
     magnitude, direction = capability.gravity(scene)
     weight = f"{number(magnitude)} vector {numbers(direction)}"
     rows = capability.shared_rows(scene, "timestep", ("fix gravity", weight, "magnitude and direction"))
-    rows += [row for pair in pairs for row in _pair_rows(scene, pair, cut)]
-    stated = scene.model.normal.force_cut
-    rows.append(Row("model.normal.law", "hertz", "pair_style", "granular", "-", "frictionless: linear_nohistory 0 0"))
-    rows.append(Row("model.normal.force_cut", stated, "limit_damping", cut, "-", "default: off, the force may pull"))
+    rows += [row for pair in pairs for row in laws.pair_rows(scene, pair)]
+    rows += laws.model_rows(scene)
     rows += [row for wall in walls for row in wall.rows]
     rows.append(Row("particles[*].radius", "below", "diameter", "below", "m", "2 R"))
     rows.append(Row("particles[*].mass", "below", "mass", "below", "kg", "as stated"))
@@ -160,10 +105,10 @@ def _pair_lines(scene: Scene, pairs: Sequence[Pair]) -> list[dict[str, str]]:
             pair = stated.get((first, second))
             names = f"{word(scene.materials[first].name)} with {word(scene.materials[second].name)}"
             if pair is None:
-                none = "hertz 0 0 tangential linear_nohistory 0 0 damping velocity"
-                lines.append({"comment": f"{names}: never touch here", "words": f"{i + 1} {j + 1} {none}"})
+                words = f"{i + 1} {j + 1} {laws.no_contact(scene)}"
+                lines.append({"comment": f"{names}: never touch here", "words": words})
             else:
-                words = f"{i + 1} {j + 1} {_coefficients(pair, force_cut(scene))}"
+                words = f"{i + 1} {j + 1} {laws.coefficients(scene, pair)}"
                 lines.append({"comment": names, "words": words})
     return lines
 
@@ -198,6 +143,7 @@ def _text(scene: Scene, rows: list[Row], pairs: Sequence[Pair], walls: Sequence[
                 }
                 for index, particle in enumerate(scene.particles, start=1)
             ],
+            "contacts": laws.comment(scene),
             "pairs": _pair_lines(scene, pairs),
             "time_step": number(scene.time_step),
             "walls": [{"name": word(wall.plane.name), "commands": wall.commands} for wall in walls],
@@ -219,7 +165,7 @@ def force_columns(fix: str) -> tuple[str, str, str]:
 
 def wall_columns(scene: Scene) -> list[tuple[int, tuple[str, str, str]]]:
     """Body index and dump columns of every wall fix of the deck."""
-    return [(wall.plane.index, force_columns(wall.fix)) for wall in _walls(scene, force_cut(scene))]
+    return [(wall.plane.index, force_columns(wall.fix)) for wall in _walls(scene)]
 
 
 def types(scene: Scene) -> list[int]:

@@ -1,117 +1,43 @@
-"""From a scene to the numbers and words of a LIGGGHTS deck.
-
-Hertz: F = 4/3 E* a d + 2 sqrt(5/6) b sqrt(Sn m*) v with b = -ln e / sqrt(ln^2 e + pi^2); E* is formed by LIGGGHTS
-from the moduli of both materials. `limitForce on` cuts the sum at zero, the default lets it pull.
-"""
+"""From a scene to a LIGGGHTS deck; the contact laws stand in `laws`, the planes in `walls`."""
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 from cross_check.adapters import capability
 from cross_check.adapters.dump import HISTORY, PARTICLES, STATE
-from cross_check.adapters.interface import Deck, NotComparable, Row
+from cross_check.adapters.interface import Deck, Row
+from cross_check.adapters.liggghts import laws
 from cross_check.adapters.liggghts.walls import Wall, wall_of
 from cross_check.adapters.render import number, numbers, render, table, word
-from cross_check.scene import Pair, Scene
+from cross_check.scene import Scene
 
-NAME = "LIGGGHTS"
 MAIN = "scene.in"
-# What LIGGGHTS accepts as coefficientRestitution.
-RESTITUTION = (0.05, 1.0)
 # Up to this many particles the neighbour list is found without bins, whose number a large domain would drive too high
 # (meshes need bins).
 WITHOUT_BINS = 64
 
 
-def force_cut(scene: Scene) -> str:
-    """`on` or `off`; LIGGGHTS does not cut when nothing is said."""
-    return capability.resolved_cut(scene, default="off")
-
-
-def restitution_of(damping_ratio: float) -> float:
-    """CoefficientRestitution [-] whose dashpot is the fraction `damping_ratio` [-] of critical damping."""
-    if damping_ratio >= 1.0:
-        return 0.0
-    return math.exp(-math.pi * damping_ratio / math.sqrt(1.0 - damping_ratio**2))
-
-
-def _restitution_row(scene: Scene, pair: Pair) -> Row:
-    key = capability.pair_key(scene, pair)
-    code_key = f"coefficientRestitution {pair.between[0] + 1} {pair.between[1] + 1}"
-    value = restitution_of(pair.damping_ratio)
-    asked = pair.restitution is not None and abs(pair.restitution - value) <= capability.SAME
-    if asked and pair.restitution is not None:
-        value = pair.restitution
-    low, high = RESTITUTION
-    if not low < value <= high:
-        raise NotComparable(
-            f"{key}: damping_ratio {number(pair.damping_ratio)} needs coefficientRestitution {number(value)}, "
-            f"LIGGGHTS accepts {low} < e <= {high}"
-        )
-    if asked:
-        return Row(key + ".restitution", number(value), code_key, number(value), "-", "as stated")
-    formula = "exp(-pi b / sqrt(1 - b^2)), b = damping_ratio"
-    return Row(key + ".damping_ratio", number(pair.damping_ratio), code_key, number(value), "-", formula)
-
-
-def _material_rows(scene: Scene) -> list[Row]:
-    rows: list[Row] = []
-    for index, material in enumerate(scene.materials):
-        young, poisson = (number(value) for value in capability.stiffness_of(scene, index))
-        key, kind = f"materials.{material.name}", index + 1
-        if material.rigid:
-            rows.append(Row(f"{key}.rigid", "true", f"youngsModulus {kind}", young, "Pa", "rigid: 1/E = 0"))
-            rows.append(Row(f"{key}.rigid", "true", f"poissonsRatio {kind}", poisson, "-", "rigid: has no effect"))
-        else:
-            rows.append(Row(f"{key}.young", young, f"youngsModulus {kind}", young, "Pa", "as stated"))
-            rows.append(Row(f"{key}.poisson", poisson, f"poissonsRatio {kind}", poisson, "-", "as stated"))
-    return rows
-
-
-def _restitution_matrix(scene: Scene, rows: dict[tuple[int, int], str]) -> list[str]:
-    """Lines of the symmetric matrix over atom types; pairs that never touch get 1."""
-    kinds = range(len(scene.materials))
-    return [" ".join(rows.get((min(i, j), max(i, j)), "1") for j in kinds) for i in kinds]
-
-
 def deck(scene: Scene) -> Deck:
     """The LIGGGHTS deck of `scene`. Raises NotComparable or InvalidScene with the reason."""
     capability.check(scene)
-    pairs = capability.touching(scene)
-    for pair in pairs:
-        capability.check_effective_young(scene, pair, NAME)
-    cut = force_cut(scene)
-    settings = " limitForce on" if cut == "on" else ""
-    walls = [wall_of(plane, scene.domain, settings) for plane in capability.planes(scene)]
-    restitution = {pair.between: _restitution_row(scene, pair) for pair in pairs}
+    words = laws.words(scene)
+    walls = [wall_of(plane, scene.domain, words.model, words.settings) for plane in capability.planes(scene)]
     magnitude, direction = capability.gravity(scene)
     weight = f"{number(magnitude)} vector {numbers(direction)}"
     rows = capability.shared_rows(scene, "timestep", ("fix gravity", weight, "magnitude and direction"))
-    rows += _material_rows(scene)
-    rows += restitution.values()
-    stated = scene.model.normal.force_cut
-    rows.append(Row("model.normal.law", "hertz", "pair_style gran", "model hertz", "-", "no tangential model"))
-    rows.append(Row("model.normal.force_cut", stated, "limitForce", cut, "-", "default: off, the force may pull"))
+    rows += words.material_rows + words.model_rows
     rows += [row for wall in walls for row in wall.rows]
     rows.append(Row("particles[*].radius", "below", "diameter", "below", "m", "2 R"))
     rows.append(Row("particles[*].mass", "below", "mass", "below", "kg", "as stated"))
-    files = {MAIN: _text(scene, rows, restitution, walls, settings)}
+    files = {MAIN: _text(scene, rows, words, walls)}
     for wall in walls:
         files |= wall.files
     return Deck("liggghts", scene, files, MAIN, rows)
 
 
-def _text(
-    scene: Scene,
-    rows: list[Row],
-    restitution: dict[tuple[int, int], Row],
-    walls: list[Wall],
-    settings: str,
-) -> str:
+def _text(scene: Scene, rows: list[Row], words: laws.Words, walls: list[Wall]) -> str:
     meshes = any(wall.files for wall in walls)
-    stiffness = [capability.stiffness_of(scene, index) for index in range(len(scene.materials))]
     magnitude, direction = capability.gravity(scene)
     domain = scene.domain
     bounds = [value for low, high in zip(domain.min, domain.max, strict=True) for value in (low, high)]
@@ -140,10 +66,10 @@ def _text(
                 }
                 for index, particle in enumerate(scene.particles)
             ],
-            "young": numbers([young for young, _ in stiffness]),
-            "poisson": numbers([poisson for _, poisson in stiffness]),
-            "restitution": _restitution_matrix(scene, {key: row.code_value for key, row in restitution.items()}),
-            "settings": settings,
+            "properties": words.properties,
+            "model": words.model,
+            "settings": words.settings,
+            "contacts": words.comment,
             "time_step": number(scene.time_step),
             "walls": walls,
             "gravity": number(magnitude),

@@ -21,13 +21,13 @@ class Wall:
     files: dict[str, str] = field(default_factory=dict[str, str])
 
 
-def wall_of(plane: Plane, domain: Domain, settings: str) -> Wall:
-    """The wall of one plane; `settings` are the last words of its contact model."""
+def wall_of(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
+    """The wall of one plane; `model` are the first and `settings` the last words of its contact model."""
     moving = [axis for axis in range(3) if plane.velocity[axis] != 0.0]
     if len(moving) > 1:
         raise NotComparable(f"body {plane.name}: LIGGGHTS slides a wall along one axis, or pushes it along its normal")
     if plane.axis in moving:
-        return _pushed(plane, domain, settings)
+        return _pushed(plane, domain, model, settings)
     fix, place = f"wall_{plane.index + 1}", f"{AXES[plane.axis]}plane"
     key, position = f"bodies.{plane.name}", number(plane.position)
     rows = [Row(f"{key}.shape.point", position, f"{fix} {place}", position, "m", "as stated")]
@@ -36,10 +36,10 @@ def wall_of(plane: Plane, domain: Domain, settings: str) -> Wall:
         shear = f" shear {AXES[moving[0]]} {number(plane.velocity[moving[0]])}"
         rows.append(_motion_row(plane, f"{fix} shear", shear.removeprefix(" shear ")))
     words = f"primitive type {plane.material + 1} {place} {position}{shear}{settings}"
-    return Wall(word(plane.name), [f"fix {fix} all wall/gran model hertz store_force yes {words}"], rows)
+    return Wall(word(plane.name), [f"fix {fix} all wall/gran model {model} store_force yes {words}"], rows)
 
 
-def _pushed(plane: Plane, domain: Domain, settings: str) -> Wall:
+def _pushed(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
     """A mesh of two triangles across the domain; a primitive wall cannot move along its normal."""
     fix, mesh = f"wall_{plane.index + 1}", f"mesh_{plane.index + 1}"
     file = f"{mesh}.stl"
@@ -64,7 +64,7 @@ def _pushed(plane: Plane, domain: Domain, settings: str) -> Wall:
     commands = [
         f"fix {mesh} all mesh/surface file {file} type {plane.material + 1}",
         f"fix push_{plane.index + 1} all move/mesh mesh {mesh} linear {numbers(plane.velocity)}",
-        f"fix {fix} all wall/gran model hertz store_force yes mesh n_meshes 1 meshes {mesh}{settings}",
+        f"fix {fix} all wall/gran model {model} store_force yes mesh n_meshes 1 meshes {mesh}{settings}",
     ]
     return Wall(word(plane.name), commands, rows, {file: text})
 

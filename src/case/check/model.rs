@@ -1,23 +1,48 @@
 //! Materials, pairs, and what the laws of the model ask of them.
 
 use super::Checker;
-use crate::case::model::{Damping, HeatLaw, MomentLaw, NormalLaw, Tail, TangentialLaw, Unloading};
+use crate::case::model::{
+    Damping, HeatLaw, MomentLaw, NormalLaw, RollingDashpot, RollingStiffness, Tail, TangentialLaw, Twisting, Unloading,
+};
 use crate::case::quantity::Quantity;
 use crate::case::schema::{Material, Pair};
 use crate::case::tag;
 
+/// Laws that are Hertz or built on it.
+fn elastic(law: &NormalLaw) -> bool {
+    matches!(
+        law,
+        NormalLaw::Hertz { .. }
+            | NormalLaw::Jkr {}
+            | NormalLaw::Dmt { .. }
+            | NormalLaw::Sjkr { .. }
+            | NormalLaw::Sjkr2 { .. }
+    )
+}
+
 impl Checker<'_> {
     fn needs_elasticity(&self) -> bool {
         let model = &self.case.model;
-        matches!(model.normal, NormalLaw::Hertz { .. } | NormalLaw::Jkr {} | NormalLaw::Dmt {})
-            || matches!(model.tangential, TangentialLaw::Mindlin { .. })
+        elastic(&model.normal) || matches!(model.tangential, TangentialLaw::Mindlin { .. })
     }
 
     pub(super) fn model(&mut self) {
         let model = &self.case.model;
         let key = |name: &str| format!("model.normal.{name}");
         match &model.normal {
-            NormalLaw::Hertz { .. } | NormalLaw::Jkr {} | NormalLaw::Dmt {} => {}
+            NormalLaw::Hertz { .. } | NormalLaw::Jkr {} | NormalLaw::Dmt { .. } => {}
+            NormalLaw::Sjkr { energy_density, .. } | NormalLaw::Sjkr2 { energy_density, .. } => {
+                self.not_negative(key("energy_density"), *energy_density);
+            }
+            NormalLaw::LudingHysteretic { k1, kp, kc, plasticity_depth, dashpot, .. } => {
+                self.positive(key("k1"), *k1);
+                if kp <= k1 {
+                    self.add(key("kp"), format!("{kp:?}"), format!("must be above k1 = {k1:?}"));
+                }
+                self.not_negative(key("kc"), *kc);
+                self.number(key("plasticity_depth"), *plasticity_depth, |value| value > 0.0, "must be positive");
+                self.not_negative(key("dashpot"), *dashpot);
+            }
             NormalLaw::LinearSpringDashpot { stiffness, dashpot, .. } => {
                 self.positive(key("stiffness"), *stiffness);
                 self.not_negative(key("dashpot"), *dashpot);
@@ -51,10 +76,40 @@ impl Checker<'_> {
             }
         }
         self.partners();
+        self.moments();
         if let Some(HeatLaw::ConductionAndRadiation { emissivity, reach }) = &model.heat {
             let allowed = |value| value > 0.0 && value <= 1.0;
             self.number("model.heat.emissivity", *emissivity, allowed, "lies in (0, 1]");
             self.number("model.heat.reach", *reach, |value| value >= 1.0, "must be at least 1");
+        }
+    }
+
+    /// Values of a rolling spring.
+    fn moments(&mut self) {
+        let MomentLaw::ElasticPlasticRolling { stiffness, dashpot, twisting, .. } = &self.case.model.moments else {
+            return;
+        };
+        let key = |name: &str| format!("model.moments.{name}");
+        match stiffness {
+            RollingStiffness::Tangential {} => {}
+            RollingStiffness::Constant { value }
+            | RollingStiffness::PerRadiusSquared { value }
+            | RollingStiffness::Normal { value } => {
+                self.number(key("stiffness.value"), *value, |value| value > 0.0, "must be positive");
+            }
+        }
+        match dashpot {
+            RollingDashpot::None {} => {}
+            RollingDashpot::CriticalShare { value } | RollingDashpot::PerRadiusSquared { value } => {
+                self.number(key("dashpot.value"), *value, |value| value >= 0.0, "must not be negative");
+            }
+        }
+        if let Twisting::Constant { stiffness, dashpot, arm } = twisting {
+            self.number(key("twisting.stiffness"), *stiffness, |value| value > 0.0, "must be positive");
+            self.number(key("twisting.dashpot"), *dashpot, |value| value >= 0.0, "must not be negative");
+            if let Some(arm) = arm {
+                self.positive(key("twisting.arm"), *arm);
+            }
         }
     }
 
@@ -175,11 +230,12 @@ impl Checker<'_> {
     /// What the laws of the model ask of every pair.
     fn pair_needs(&mut self, i: usize, pair: &Pair) {
         let (model, values) = (&self.case.model, &pair.values);
-        let elastic = matches!(model.normal, NormalLaw::Hertz { .. } | NormalLaw::Jkr {} | NormalLaw::Dmt {});
-        let sticky = matches!(model.normal, NormalLaw::Jkr {} | NormalLaw::Dmt {});
+        let elastic = elastic(&model.normal);
+        let sticky = matches!(model.normal, NormalLaw::Jkr {} | NormalLaw::Dmt { .. });
         let sintering = matches!(model.normal, NormalLaw::LudingSintering { .. });
         let frictional = !matches!(model.tangential, TangentialLaw::Frictionless {});
-        let rolling = matches!(model.moments, MomentLaw::ElasticPlasticRolling {} | MomentLaw::ConstantTorque {});
+        let rolling =
+            matches!(model.moments, MomentLaw::ElasticPlasticRolling { .. } | MomentLaw::ConstantTorque { .. });
         let (normal, tangential) = (tag(&model.normal, "law"), tag(&model.tangential, "law"));
         let damping = "{ kind = \"none\" | \"restitution\" | \"ratio\" }";
         let needs = [

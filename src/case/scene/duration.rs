@@ -5,7 +5,7 @@ use crate::Vector;
 use crate::case::protocol::End;
 use crate::case::schema::{Case, TimeStep};
 use crate::error::Problem;
-use crate::laws::normal::hertz::Hertz;
+use crate::laws::registry::Normal;
 
 /// Most steps of one run: beyond it a number was mistyped.
 pub const MOST_STEPS: f64 = 1e9;
@@ -13,10 +13,10 @@ pub const MOST_STEPS: f64 = 1e9;
 const MOST_VALUES: f64 = 1e9;
 
 /// Chooses the time step and the number of steps.
-pub fn steps(case: &Case, scene: &mut Scene, approaches: &[StartApproach]) -> Result<(), Problem> {
+pub fn steps(case: &Case, scene: &mut Scene, law: &Normal, approaches: &[StartApproach]) -> Result<(), Problem> {
     let impact = approaches
         .iter()
-        .map(|start| Hertz::elastic_impact(&start.law, start.speed).duration)
+        .map(|start| law.impact_duration(&start.law, start.speed))
         .reduce(f64::min)
         .ok_or("nothing approaches anything at the start, so that no contact has a duration; state a time in s");
     let rayleigh = scene

@@ -1,6 +1,5 @@
 //! What this build computes of what the schema can say.
 
-use crate::case::model::{MomentLaw, NormalLaw, TangentialLaw};
 use crate::case::protocol::{End, Motion, Shape, Stage};
 use crate::case::schema::{Boundary, Case, Check, Geometry};
 use crate::case::source::ParticleSource;
@@ -21,7 +20,7 @@ pub fn supported(case: &Case) -> Result<(), Problem> {
             return refuse(format!("domain.boundary.{axis}"), "periodic", "`open` boundaries");
         }
     }
-    model(case)?;
+    heat(case)?;
     if let Some(start) = &case.start_from {
         return refuse("start_from.case", &start.case, "cases that state their particles");
     }
@@ -55,18 +54,8 @@ pub fn supported(case: &Case) -> Result<(), Problem> {
     }
 }
 
-fn model(case: &Case) -> Result<(), Problem> {
-    let model = &case.model;
-    if !matches!(model.normal, NormalLaw::Hertz { .. }) {
-        return refuse("model.normal.law", tag(&model.normal, "law"), "`hertz`");
-    }
-    if !matches!(model.tangential, TangentialLaw::Frictionless {}) {
-        return refuse("model.tangential.law", tag(&model.tangential, "law"), "`frictionless`");
-    }
-    if !matches!(model.moments, MomentLaw::Free {}) {
-        return refuse("model.moments.law", tag(&model.moments, "law"), "`free`");
-    }
-    match &model.heat {
+fn heat(case: &Case) -> Result<(), Problem> {
+    match &case.model.heat {
         Some(heat) => refuse("model.heat.law", tag(heat, "law"), "cases without heat"),
         None => Ok(()),
     }

@@ -6,6 +6,7 @@ use super::duration::MOST_STEPS;
 use super::{SCHEMA, Scene, SceneShape};
 use crate::Vector;
 use crate::error::Error;
+use crate::laws::registry::Specification;
 
 impl Scene {
     /// Checks what the engine takes for granted.
@@ -29,7 +30,11 @@ impl Scene {
         if self.output_every == 0 {
             return Some("output_every = 0: at least 1".to_owned());
         }
-        self.indices().or_else(|| self.numbers()).or_else(|| self.missing_pair())
+        let laws = match self.model.specification(&self.mirror) {
+            Ok(laws) => laws,
+            Err(problem) => return Some(problem.to_string()),
+        };
+        self.indices().or_else(|| self.numbers()).or_else(|| self.values(&laws)).or_else(|| self.missing_pair())
     }
 
     fn indices(&self) -> Option<String> {
@@ -75,6 +80,30 @@ impl Scene {
             // `+ 0.0` makes one zero of two.
             if !places.insert(particle.position.map(|coordinate| (coordinate + 0.0).to_bits())) {
                 return Some(format!("particles.{i}.position = {:?}: another particle is there", particle.position));
+            }
+        }
+        None
+    }
+
+    /// Values that the laws ask of every pair.
+    fn values(&self, laws: &Specification) -> Option<String> {
+        let asked = laws.asks();
+        for (i, pair) in self.pairs.iter().enumerate() {
+            let given = [
+                ("effective_shear", asked.effective_shear, pair.effective_shear),
+                ("friction", asked.friction, pair.friction),
+                ("rolling_friction", asked.rolling_friction, pair.rolling_friction),
+                ("twisting_friction", asked.twisting_friction, pair.twisting_friction),
+                ("work_of_adhesion", asked.work_of_adhesion, pair.work_of_adhesion),
+            ];
+            for (name, asked, value) in given {
+                match value {
+                    None if asked => return Some(format!("pairs.{i}.{name} = nothing: the laws of the model need it")),
+                    Some(value) if !(value >= 0.0 && value.is_finite()) => {
+                        return Some(format!("pairs.{i}.{name} = {value}: must not be negative"));
+                    }
+                    _ => {}
+                }
             }
         }
         None

@@ -30,6 +30,18 @@ pub enum Rolling {
     },
 }
 
+impl Rolling {
+    /// Whether the moment is limited by a coefficient of the pair.
+    #[must_use]
+    pub fn capped(&self) -> bool {
+        match self {
+            Self::Free => false,
+            Self::ConstantTorque { .. } => true,
+            Self::ElasticPlasticRolling { spring } => spring.limit != Limit::Unlimited,
+        }
+    }
+}
+
 /// Rolling and twisting.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -56,7 +68,7 @@ impl Moments {
                 Stiffness::Constant { value }
                 | Stiffness::PerRadiusSquared { value }
                 | Stiffness::Normal { factor: value } => {
-                    let capped = spring.limit != Limit::Unlimited;
+                    let capped = self.rolling.capped();
                     within(key, value, value > 0.0 || value == 0.0 && !capped, "above 0 where the moment is capped")?;
                 }
             }

@@ -28,7 +28,7 @@
 //! | LIGGGHTS | `epsd` | normal 2.25, `critical_share`, fixed, elastic cap |
 //! | | `epsd2` | tangential, none, fixed |
 //! | | `epsd3` | normal `rollingStiffness`, `critical_share`, fixed |
-//! | YADE | krot, eta | constant, none, `small_angles`, cap with Rm; eta = 0 is no cap |
+//! | YADE | krot, eta | constant, none, `small_angles`, cap with Rm while pressed; eta = 0 is no cap |
 //! | LAMMPS | `rolling sds k g mu` | `per_radius_squared`, `projection_rescaled`, total cap |
 
 use serde::{Deserialize, Serialize};
@@ -165,7 +165,8 @@ impl MomentLaw for ElasticPlasticRolling {
         let limit = match self.limit {
             Limit::EffectiveRadius => force * radius,
             Limit::MeanRadius => force * 0.5 * (contact.geometry.radius_i + contact.geometry.radius_j),
-            Limit::Unlimited => f64::INFINITY,
+            Limit::WhilePressed if force > 0.0 => force * radius,
+            Limit::WhilePressed | Limit::Unlimited => f64::INFINITY,
         };
         let turn = Turn::of(contact, dt);
         let negligible = NEGLIGIBLE * limit / if self.history == History::Displacement { stiffness } else { 1.0 };
@@ -176,8 +177,15 @@ impl MomentLaw for ElasticPlasticRolling {
             increment: self.increment(),
             cap: self.cap,
         };
-        let step = Step { rate, stiffness, dashpot, limit, dt };
-        let response = rules.advance(&step, history, &InPlane { rotation: self.rotation, turn: &turn, negligible });
+        // LAMMPS remembers the rolling displacement, a quarter turn from the angle: as the contact turns, the two differ
+        // to second order.
+        let quarter = self.rotation == Rotation::ProjectionRescaled && !self.torsion;
+        let followed = if quarter { rate.cross(&direction) } else { rate };
+        let step = Step { rate: followed, stiffness, dashpot, limit, dt };
+        let mut response = rules.advance(&step, history, &InPlane { rotation: self.rotation, turn: &turn, negligible });
+        if quarter {
+            response.force = direction.cross(&response.force);
+        }
         let mut state = MomentState::of(&response);
         // Work on spins that the spring does not see: none in native laws.
         state.losses.carried -= response.force.dot(&(super::relative_spin(contact) - rate)) * dt;

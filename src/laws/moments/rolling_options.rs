@@ -33,6 +33,8 @@ pub enum Limit {
     EffectiveRadius,
     /// `mu_r` abs(`F_n`) (Ri + Rj) / 2.
     MeanRadius,
+    /// `mu_r` abs(`F_n`) R* where `F_n` is not zero, none where it is (YADE, whose normal force is cut at zero).
+    WhilePressed,
     /// None.
     Unlimited,
 }

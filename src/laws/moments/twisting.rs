@@ -86,6 +86,12 @@ impl Twisting {
 }
 
 impl Twisting {
+    /// Whether the moment is limited by the coefficient of the pair.
+    #[must_use]
+    pub fn capped(&self) -> bool {
+        !matches!(self.spring, Spring::Constant { arm: None, .. })
+    }
+
     /// Rescaled springs, which are native, take the mean.
     const fn increment(&self) -> Increment {
         match self.history {

@@ -18,6 +18,8 @@
 //! | YADE | `ViscElMat` kn = 2 k, cn = 2 g |
 //! | LAMMPS | `hooke k g`, `damping velocity`, `limit_damping` |
 
+use std::f64::consts::PI;
+
 use crate::laws::{Approach, NormalLaw, NormalState, PairLaw};
 
 /// The law.
@@ -29,6 +31,14 @@ pub struct LinearSpringDashpot {
     pub dashpot: f64,
     /// Whether the total force is cut at zero.
     pub force_cut: bool,
+}
+
+impl LinearSpringDashpot {
+    /// Duration pi sqrt(m*/k) of an undamped impact [s]. It chooses time steps; no gate uses it.
+    #[must_use]
+    pub fn half_period(stiffness: f64, effective_mass: f64) -> f64 {
+        PI * (effective_mass / stiffness).sqrt()
+    }
 }
 
 impl NormalLaw for LinearSpringDashpot {

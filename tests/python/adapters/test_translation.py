@@ -9,10 +9,10 @@ import pytest
 
 from cross_check.adapters import ADAPTERS, capability
 from cross_check.adapters.interface import Deck, InvalidScene, NotComparable
-from cross_check.adapters.lammps.translate import TSUJI, tsuji_number
-from cross_check.adapters.liggghts.translate import restitution_of
+from cross_check.adapters.lammps.laws import TSUJI, tsuji_number
+from cross_check.adapters.liggghts.laws import restitution_of
 from cross_check.adapters.render import number, word
-from cross_check.adapters.yade.translate import betan_of
+from cross_check.adapters.yade.laws import betan_of
 from cross_check.scene import Scene
 
 from . import scenes
