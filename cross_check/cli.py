@@ -109,7 +109,7 @@ def deck_(case: str, code: str, out: Path, overrides: tuple[str, ...]) -> None:
             except NotComparable as reason:
                 reasons.append(f"{scene.name}: not-comparable({reason})")
                 continue
-            campaign.write_deck(deck, out / variant.name)
+            campaign.write_deck(deck, out / variant.member)
             written += 1
     for reason in reasons:
         click.echo(reason, err=True)

@@ -9,7 +9,7 @@ import numpy as np
 from cross_check import reference
 from cross_check.compare.outcome import NATIVE, Outcome, Outcomes, mirror_name
 from cross_check.compare.quantities import QUANTITIES, Impact, Undefined, impact
-from cross_check.engine import Case, Gate, Point
+from cross_check.engine import Case, Gate, Variant
 from cross_check.report.campaign import Curve, CurveSet, SweepPlot
 from cross_check.runs import Results
 
@@ -78,7 +78,7 @@ def sweeps(case: Case, results: Results, codes: tuple[str, ...]) -> Iterator[Swe
     axes = {point.axis for variant in case.variants for point in variant.points if point.at is not None}
     gates = [gate for gate in case.gates if gate.check == "reference" and QUANTITIES[gate.quantity].scalar]
     for axis in sorted(axes):
-        others = {_others(variant.points, axis) for variant in case.variants}
+        others = {_others(variant, axis) for variant in case.variants}
         for gate in gates:
             for other in sorted(others):
                 plot = _sweep(case, gate, axis, other, results, codes)
@@ -86,8 +86,10 @@ def sweeps(case: Case, results: Results, codes: tuple[str, ...]) -> Iterator[Swe
                     yield plot
 
 
-def _others(points: tuple[Point, ...], axis: str) -> str:
-    return ", ".join(point.label for point in points if point.axis != axis)
+def _others(variant: Variant, axis: str) -> str:
+    labels = [point.label for point in variant.points if point.axis != axis]
+    seed = variant.scenes[0].seed
+    return ", ".join(labels if seed is None else [*labels, f"seed={seed}"])
 
 
 def _sweep(case: Case, gate: Gate, axis: str, other: str, results: Results, codes: tuple[str, ...]) -> SweepPlot | None:
@@ -98,7 +100,7 @@ def _sweep(case: Case, gate: Gate, axis: str, other: str, results: Results, code
     targets: list[tuple[float, float]] = []
     for variant in case.variants:
         at = next((point.at for point in variant.points if point.axis == axis), None)
-        if at is None or _others(variant.points, axis) != other:
+        if at is None or _others(variant, axis) != other:
             continue
         target = float(form(variant.scenes[0]))
         targets.append((at, target))

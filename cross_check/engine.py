@@ -49,11 +49,16 @@ class Point:
 
 @dataclass(frozen=True)
 class Variant:
-    """A point of the sweep; `scenes` are its refinements, coarsest first."""
+    """A point of the sweep, and one seed of its ensemble; `scenes` are its refinements, coarsest first."""
 
     name: str
     points: tuple[Point, ...]
     scenes: tuple[Scene, ...]
+
+    @property
+    def member(self) -> str:
+        """`variant/seed=1`: the name of the variant and the seed, without the parts that the case lacks."""
+        return self.scenes[0].member
 
 
 @dataclass(frozen=True)
@@ -82,12 +87,13 @@ def load_case(path: Path, overrides: list[str] | None = None) -> Case:
         raw: dict[str, Any] = json.loads(crossgrain.load_case(path, overrides or []))
     except ValueError as error:
         raise CaseError(str(error)) from error
-    scenes: dict[str, list[Scene]] = {}
+    members: dict[str, dict[int | None, list[Scene]]] = {}
     for item in raw["scenes"]:
-        scenes.setdefault(item["variant"], []).append(from_json(item))
+        members.setdefault(item["variant"], {}).setdefault(item["seed"], []).append(from_json(item))
     variants = tuple(
-        Variant(item["name"], tuple(Point(**point) for point in item["points"]), tuple(scenes[item["name"]]))
+        Variant(item["name"], tuple(Point(**point) for point in item["points"]), tuple(scenes))
         for item in raw["variants"]
+        for scenes in members[item["name"]].values()
     )
     case = raw["case"]
     return Case(

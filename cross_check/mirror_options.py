@@ -73,8 +73,9 @@ class TwistingOptions:
 class Mirror:
     """Engine options that reproduce another code; the plain engine has a plane without curvature, `synchronized`.
 
-    `code` names it: the engine refuses options that it does not have. The others are None where the model has no such
-    law or the plain choice stands: `opposed` of the constant torque (rolling | rolling_share | whole_spin),
+    `code` names it: the engine refuses options that it does not have. `cylinder_curvature` is the share of its
+    curvature that a cylinder has in R*, None for all of it. The others are None where the model has no such law or the
+    plain choice stands: `opposed` of the constant torque (rolling | rolling_share | whole_spin),
     `dashpot_limit` of an adhesive law (base | pull_off), `hysteresis` rule of luding_hysteretic (self_consistent |
     old_stiffness | luding_pm).
     """
@@ -82,6 +83,7 @@ class Mirror:
     plane_radius_factor: float | None
     start: str
     code: str | None = None
+    cylinder_curvature: float | None = None
     tangential: TangentialOptions | None = None
     rolling: RollingOptions | None = None
     twisting: TwistingOptions | None = None

@@ -69,12 +69,25 @@ class Pair:
 
 
 @dataclass(frozen=True)
-class Shape:
+class Plane:
     """A plane through `point` [m]; the unit `normal` points into the region of the particles."""
 
-    kind: str
     point: Vector
     normal: Vector
+    kind: str = "plane"
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """The inside of a cylinder without end: a `point` of its axis [m], the unit `axis` and its `radius` [m]."""
+
+    point: Vector
+    axis: Vector
+    radius: float
+    kind: str = "cylinder"
+
+
+Shape = Plane | Cylinder
 
 
 @dataclass(frozen=True)
@@ -132,8 +145,14 @@ class Scene:
 
     @property
     def name(self) -> str:
-        """`case/variant`, the name of the scene in decks, reports and verdicts."""
-        return f"{self.case}/{self.variant}" if self.variant else self.case
+        """`case/variant/seed=1`, the name of the scene in decks, reports and verdicts, without the parts it lacks."""
+        return f"{self.case}/{self.member}" if self.member else self.case
+
+    @property
+    def member(self) -> str:
+        """`variant/seed=1`: which of the scenes of its case it is."""
+        seed = "" if self.seed is None else f"seed={self.seed}"
+        return "/".join(part for part in (self.variant, seed) if part)
 
     def pair(self, first: int, second: int) -> Pair | None:
         """The pair of two material indices in either order, or None if the case does not state it."""
@@ -182,13 +201,21 @@ def _vector(raw: list[float]) -> Vector:
     return (float(raw[0]), float(raw[1]), float(raw[2]))
 
 
+def _shape(item: dict[str, Any]) -> Shape:
+    if item["kind"] == "plane":
+        return Plane(_vector(item["point"]), _vector(item["normal"]))
+    if item["kind"] == "cylinder":
+        return Cylinder(_vector(item["point"]), _vector(item["axis"]), float(item["radius"]))
+    raise ValueError(f"shape {item['kind']!r} is unknown (known: plane, cylinder)")
+
+
 def _body(item: dict[str, Any]) -> Body:
-    shape, motion = item["shape"], item["motion"]
+    motion = item["motion"]
     velocity = motion.get("velocity")
     return Body(
         name=item["name"],
         material=item["material"],
-        shape=Shape(shape["kind"], _vector(shape["point"]), _vector(shape["normal"])),
+        shape=_shape(item["shape"]),
         motion=Motion(motion["kind"], None if velocity is None else _vector(velocity)),
     )
 

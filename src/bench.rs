@@ -140,6 +140,7 @@ impl Bed {
             particles: self.particles(),
             bodies: Vec::new(),
             plane_radius_factor: None,
+            cylinder_curvature: None,
             start: Start::Synchronized,
             ledger: false,
             skin: None,

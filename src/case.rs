@@ -26,7 +26,7 @@ pub struct Loaded {
     pub case: Case,
     /// Its variants, in the order of the sweep.
     pub variants: Vec<sweep::Variant>,
-    /// Runnable scenes: variants, each with its refinements.
+    /// Runnable scenes: variants, each with its seeds, each with its refinements.
     pub scenes: Vec<Scene>,
 }
 
@@ -105,11 +105,14 @@ impl Stated {
     pub fn load(self) -> Result<Loaded, Error> {
         let mut scenes = Vec::new();
         for variant in &self.variants {
-            for refinement in 0..=variant.case.time.refinements {
-                let prepare = |variant: &sweep::Variant| scene::prepare(&variant.case, &variant.name, refinement);
-                match prepare(variant) {
-                    Ok(scene) => scenes.push(scene),
-                    Err(_) => self.refuse(variant, |variant| prepare(variant).err())?,
+            for seed in variant.seeds() {
+                for refinement in 0..=variant.case.time.refinements {
+                    let prepare =
+                        |variant: &sweep::Variant| scene::prepare(&variant.case, &variant.name, seed, refinement);
+                    match prepare(variant) {
+                        Ok(scene) => scenes.push(scene),
+                        Err(_) => self.refuse(variant, |variant| prepare(variant).err())?,
+                    }
                 }
             }
         }

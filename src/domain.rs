@@ -29,20 +29,29 @@ impl Domain {
         Self { min, length: max - min, periodic: scene.boundary.map(|boundary| boundary == Boundary::Periodic) }
     }
 
-    /// The place in the box that a particle at `position` [m] has by periodicity; places inside keep their bits.
+    /// The place in the box that a particle at `position` [m] has by periodicity, and how many edges lie between the two
+    /// along each axis; places inside keep their bits.
     #[must_use]
-    pub fn wrap(&self, position: Vector) -> Vector {
-        let mut place = position;
-        for axis in 0..3 {
-            let edge = self.length[axis];
-            if self.periodic[axis] {
-                let from = position[axis] - self.min[axis];
-                if from < 0.0 || from >= edge {
-                    place[axis] = self.min[axis] + (from - edge * (from / edge).floor());
+    pub fn wrap(&self, position: Vector) -> (Vector, [i32; 3]) {
+        let (mut place, mut crossings) = (position, [0; 3]);
+        for axis in (0..3).filter(|axis| self.periodic[*axis]) {
+            let (min, edge) = (self.min[axis], self.length[axis]);
+            let from = position[axis] - min;
+            if from < 0.0 || from >= edge {
+                let mut edges = (from / edge).floor();
+                place[axis] = min + (from - edge * edges);
+                // A place just below the lower face is rounded onto the upper one, which is the lower one again.
+                if place[axis] - min >= edge {
+                    place[axis] = min;
+                    edges += 1.0;
+                }
+                #[expect(clippy::cast_possible_truncation, reason = "only a run that diverges comes so far")]
+                {
+                    crossings[axis] = edges as i32;
                 }
             }
         }
-        place
+        (place, crossings)
     }
 
     /// The image in which two places of the box are nearest, from their `branch` [m].
@@ -59,6 +68,19 @@ impl Domain {
             image = 3 * image + crossing;
         }
         image
+    }
+
+    /// The branch between the nearest images of two places of the box, from their `branch` [m].
+    #[must_use]
+    pub fn nearest(&self, branch: Vector) -> Vector {
+        let mut near = branch;
+        for axis in 0..3 {
+            let edge = self.length[axis];
+            if self.periodic[axis] && near[axis].abs() > 0.5 * edge {
+                near[axis] -= edge.copysign(near[axis]);
+            }
+        }
+        near
     }
 
     /// The vector to add to a branch, for every image [m].
@@ -92,6 +114,7 @@ mod tests {
         let domain = Domain { min: Vector::zeros(), length: Vector::new(1.0, 2.0, 3.0), periodic: [true, true, false] };
         let branch = Vector::new(0.9, -1.5, 2.9);
         let near = branch + domain.shifts()[domain.image(branch) as usize];
+        assert_eq!(near, domain.nearest(branch));
         assert!((near - Vector::new(-0.1, 0.5, 2.9)).norm() < 1e-15);
         assert_eq!(domain.image(Vector::new(0.4, 0.9, -2.0)), HOME);
     }
@@ -100,7 +123,20 @@ mod tests {
     fn wrapping_keeps_places_inside() {
         let domain = Domain { min: Vector::repeat(-1.0), length: Vector::repeat(2.0), periodic: [true, false, true] };
         let place = Vector::new(0.123, 7.0, -0.9);
-        assert_eq!(domain.wrap(place), place);
-        assert!((domain.wrap(Vector::new(1.5, 0.0, -1.5)) - Vector::new(-0.5, 0.0, 0.5)).norm() < 1e-15);
+        assert_eq!(domain.wrap(place), (place, [0; 3]));
+        let (place, crossings) = domain.wrap(Vector::new(1.5, 9.0, -5.5));
+        assert!((place - Vector::new(-0.5, 9.0, 0.5)).norm() < 1e-15);
+        assert_eq!(crossings, [1, 0, -3]);
+    }
+
+    #[test]
+    fn wrapping_twice_changes_no_bit() {
+        let domain = Domain { min: Vector::repeat(0.3), length: Vector::repeat(0.7), periodic: [true; 3] };
+        for offset in [-1e-20, -1e-17, -1e-16, 0.7, 0.7 - 1e-16, 0.7 + 1e-16, 2.1, -0.7, -1.4 - 1e-16] {
+            let (once, _) = domain.wrap(Vector::repeat(0.3 + offset));
+            assert_eq!(domain.wrap(once), (once, [0; 3]), "{offset:e}");
+        }
+        let (origin, crossings) = Domain { min: Vector::zeros(), ..domain }.wrap(Vector::repeat(-1e-20));
+        assert_eq!((origin, crossings), (Vector::zeros(), [0; 3]));
     }
 }

@@ -13,6 +13,8 @@ pub enum Surface {
     Cylinder {
         /// Unit vector along its axis [-].
         axis: Vector,
+        /// Its radius [m], whatever curvature a mirror gives it.
+        bore: f64,
     },
 }
 
@@ -38,13 +40,13 @@ impl ContactGeometry {
     #[allow(clippy::inline_always, reason = "the batch of contacts is vectorised only where laws are inlined")]
     #[inline(always)]
     pub fn previous_normal(&self, velocity: &Vector, dt: f64) -> Vector {
-        let velocity = match self.surface {
-            Surface::Sphere => *velocity,
+        let (velocity, other) = match self.surface {
+            Surface::Sphere => (*velocity, self.radius_j),
             Surface::Plane => return self.normal,
-            Surface::Cylinder { axis } => velocity - axis * velocity.dot(&axis),
+            Surface::Cylinder { axis, bore } => (velocity - axis * velocity.dot(&axis), -bore),
         };
         // Inside a cylinder the distance is negative: the normal points to the axis.
-        let distance = self.radius_i + self.radius_j - self.overlap;
+        let distance = self.radius_i + other - self.overlap;
         let branch = self.normal - velocity * (dt / distance);
         branch * (1.0 / branch.norm())
     }
@@ -104,7 +106,7 @@ pub fn sphere_cylinder(center: Vector, radius: f64, point: Vector, axis: Vector,
         overlap: radius + distance - bore,
         radius_i: radius,
         radius_j: -bore,
-        surface: Surface::Cylinder { axis },
+        surface: Surface::Cylinder { axis, bore },
     })
 }
 

@@ -107,9 +107,7 @@ impl Neighbors {
 
     /// Moves particles back into the box, orders them along the curve and returns the places that they had before.
     pub fn order(&mut self, particles: &mut Particles, domain: &Domain) -> Vec<u32> {
-        for place in &mut particles.place {
-            place.position = domain.wrap(place.position);
-        }
+        particles.wrap(domain);
         let grid = morton::Grid::new(particles, domain, self.skin + self.reach);
         let order = grid.order(particles);
         particles.reorder(&order);

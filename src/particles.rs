@@ -5,6 +5,7 @@
 
 use crate::Vector;
 use crate::case::scene::SceneParticle;
+use crate::domain::Domain;
 
 /// What the search for contacts reads.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +56,8 @@ pub struct Particles {
     pub moment_of_inertia: Vec<f64>,
     /// Place in memory of each id.
     index: Vec<u32>,
+    /// Edges of the box that each id has left behind along periodic axes.
+    crossings: Vec<[i32; 3]>,
 }
 
 impl Particles {
@@ -75,6 +78,7 @@ impl Particles {
             columns.index.push(id);
         }
         columns.load = vec![Load::default(); particles.len()];
+        columns.crossings = vec![[0; 3]; particles.len()];
         columns
     }
 
@@ -120,7 +124,46 @@ impl Particles {
         }
     }
 
-    /// Centres by id [m].
+    /// Moves particles back into the box, and counts the edges that they have left behind.
+    pub fn wrap(&mut self, domain: &Domain) {
+        for (place, motion) in self.place.iter_mut().zip(&self.motion) {
+            let (position, crossings) = domain.wrap(place.position);
+            place.position = position;
+            for (sum, crossing) in self.crossings[motion.id as usize].iter_mut().zip(crossings) {
+                *sum = sum.saturating_add(crossing);
+            }
+        }
+    }
+
+    /// The centre of the particle at a place in memory as if no axis were periodic: its trajectory has no jumps [m].
+    #[must_use]
+    pub fn unwrapped(&self, at: usize, domain: &Domain) -> Vector {
+        let crossings = self.crossings[self.motion[at].id as usize];
+        let mut place = self.place[at].position;
+        for axis in (0..3).filter(|axis| crossings[*axis] != 0) {
+            place[axis] += domain.length[axis] * f64::from(crossings[axis]);
+        }
+        place
+    }
+
+    /// Centres by id as if no axis were periodic [m].
+    pub fn unwrapped_positions(&self, domain: &Domain) -> impl Iterator<Item = Vector> {
+        self.index.iter().map(|at| self.unwrapped(*at as usize, domain))
+    }
+
+    /// Edges of the box left behind, by id, as a checkpoint holds them.
+    pub fn crossings(&self) -> impl Iterator<Item = Vector> {
+        self.crossings.iter().map(|crossings| crossings.map(f64::from).into())
+    }
+
+    /// Takes the edges left behind from a checkpoint.
+    pub fn set_crossings(&mut self, crossings: &[Vector]) {
+        #[expect(clippy::cast_possible_truncation, reason = "they were saved from such integers")]
+        let count = |edges: &Vector| [edges.x as i32, edges.y as i32, edges.z as i32];
+        self.crossings = crossings.iter().map(count).collect();
+    }
+
+    /// Centres in the box by id [m]; between two builds of the neighbour list they may lie just outside.
     pub fn positions(&self) -> impl Iterator<Item = Vector> {
         self.index.iter().map(|at| self.place[*at as usize].position)
     }

@@ -16,6 +16,7 @@ use serde_json::json;
 use crate::Vector;
 use crate::bodies::Body;
 use crate::case::scene::{Scene, Start};
+use crate::domain::Domain;
 use crate::error::Error;
 use crate::observables::energy::Ledger;
 use crate::particles::Particles;
@@ -74,13 +75,13 @@ impl Recorder {
     }
 
     /// Adds a sample.
-    pub fn sample(&mut self, step: u64, particles: &Particles, bodies: &[Body], ledger: &Ledger) {
+    pub fn sample(&mut self, step: u64, particles: &Particles, domain: &Domain, bodies: &[Body], ledger: &Ledger) {
         fn flat(vectors: impl Iterator<Item = Vector>) -> Vec<f64> {
             vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
         }
         let rows = [
             vec![step as f64 * self.time_step],
-            flat(particles.positions()),
+            flat(particles.unwrapped_positions(domain)),
             flat(particles.velocities()),
             flat(particles.angular_velocities()),
             flat(particles.loads().map(|load| load.force)),

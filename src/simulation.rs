@@ -22,7 +22,7 @@ use crate::particles::Particles;
 pub use run::{Checkpoints, Options, run};
 
 /// Skin of the neighbour list, as a share of the smallest radius.
-const SKIN: f64 = 0.25;
+pub const SKIN: f64 = 0.25;
 
 /// Everything that a simulation starts from.
 #[derive(Clone, Debug)]
@@ -45,6 +45,8 @@ pub struct Setup {
     pub bodies: Vec<Body>,
     /// A plane acts like a sphere whose radius is this multiple of the particle's.
     pub plane_radius_factor: Option<f64>,
+    /// Share of its curvature that a cylinder has in R*.
+    pub cylinder_curvature: Option<f64>,
     /// Where velocities start.
     pub start: Start,
     /// Whether an energy ledger is kept; trajectories do not depend on it.
@@ -67,6 +69,7 @@ impl Setup {
             particles: scene.particles.clone(),
             bodies: scene.bodies.iter().map(Body::new).collect(),
             plane_radius_factor: scene.mirror.plane_radius_factor,
+            cylinder_curvature: scene.mirror.cylinder_curvature,
             start: scene.mirror.start,
             ledger: true,
             skin: None,
@@ -115,6 +118,7 @@ pub struct Simulation<M: ContactModel> {
     start: Start,
     ledger_kept: bool,
     plane_radius_factor: Option<f64>,
+    cylinder_curvature: Option<f64>,
     materials: usize,
     table: Vec<Option<PairProperties>>,
     domain: Domain,
@@ -154,6 +158,7 @@ impl<M: ContactModel> Simulation<M> {
             start: setup.start,
             ledger_kept: setup.ledger,
             plane_radius_factor: setup.plane_radius_factor,
+            cylinder_curvature: setup.cylinder_curvature,
             materials: setup.materials,
             table: setup.table()?,
             domain: setup.domain.clone(),
@@ -314,7 +319,7 @@ impl<M: ContactModel> Simulation<M> {
     /// The energies at the present step.
     pub fn energies(&mut self) -> Ledger {
         let ahead = if self.start == Start::Staggered { 0.5 * self.time_step } else { 0.0 };
-        self.ledger.measure(&self.particles, &self.contacts, &self.gravity, ahead);
+        self.ledger.measure(&self.particles, &self.domain, &self.contacts, &self.gravity, ahead);
         self.ledger
     }
 }

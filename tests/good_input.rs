@@ -19,7 +19,7 @@ fn cases(folder: &str) -> Vec<(PathBuf, Loaded)> {
 #[test]
 fn minimal_cases_run() {
     let cases = cases("tests/inputs/good");
-    assert_eq!(cases.len(), 4);
+    assert_eq!(cases.len(), 8);
     for (path, loaded) in cases {
         for scene in &loaded.scenes {
             let record = simulation::run(scene, &simulation::Options::threads(1), &|_| {}).unwrap();

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from cross_check.adapters.interface import InvalidScene, NotComparable, Row
 from cross_check.adapters.render import number, numbers, word
-from cross_check.scene import Mirror, Pair, Scene, Vector
+from cross_check.scene import Body, Cylinder, Mirror, Pair, Scene, Vector
 
 AXES = "xyz"
 # Young's modulus [Pa] typed for a rigid material: (1 - nu^2)/E vanishes beside every real material, to the last bit.
@@ -26,6 +26,22 @@ class Plane:
     axis: int
     side: int
     position: float
+    velocity: Vector
+
+
+@dataclass(frozen=True)
+class Tube:
+    """The inside of a cylinder along an axis: body index, axis 0-2, `place` in the other coordinates in order [m].
+
+    `radius` [m], `velocity` [m/s].
+    """
+
+    index: int
+    name: str
+    material: int
+    axis: int
+    place: tuple[float, float]
+    radius: float
     velocity: Vector
 
 
@@ -63,26 +79,62 @@ def _check_particles(scene: Scene) -> None:
             raise InvalidScene(f"{where} lies outside of the domain")
 
 
-def planes(scene: Scene) -> list[Plane]:
-    """The bodies as planes normal to an axis. Raises NotComparable for any other body."""
+def walls(scene: Scene) -> list[Plane | Tube]:
+    """The bodies as planes normal to an axis and tubes along one. Raises NotComparable for any other body."""
+    return [
+        _tube(scene, i, b) if isinstance(b.shape, Cylinder) else _plane(scene, i, b) for i, b in enumerate(scene.bodies)
+    ]
+
+
+def planes(scene: Scene, no_tubes: str) -> list[Plane]:
+    """The bodies as planes normal to an axis, for a code that has no other; `no_tubes` says why."""
     result: list[Plane] = []
-    for index, body in enumerate(scene.bodies):
-        if body.shape.kind != "plane":
-            raise NotComparable(f"body {body.name}: the shape {body.shape.kind} has no translation (known: plane)")
-        axes = [axis for axis in range(3) if body.shape.normal[axis] != 0.0]
-        if len(axes) != 1 or abs(body.shape.normal[axes[0]]) != 1.0:
-            raise NotComparable(f"body {body.name}: only planes whose normal lies along x, y or z have a translation")
-        axis = axes[0]
-        if scene.domain.boundary[axis] == "periodic":
-            raise InvalidScene(f"body {body.name} is normal to {AXES[axis]}, along which the domain is periodic")
-        velocity = (0.0, 0.0, 0.0)
-        if body.motion.kind == "prescribed" and body.motion.velocity is not None:
-            velocity = body.motion.velocity
-        elif body.motion.kind != "fixed":
-            raise NotComparable(f"body {body.name}: the motion {body.motion.kind} has no translation")
-        side = 1 if body.shape.normal[axis] > 0 else -1
-        result.append(Plane(index, body.name, body.material, axis, side, body.shape.point[axis], velocity))
+    for wall in walls(scene):
+        if isinstance(wall, Tube):
+            raise NotComparable(f"body {wall.name}: {no_tubes}")
+        result.append(wall)
     return result
+
+
+def _plane(scene: Scene, index: int, body: Body) -> Plane:
+    if isinstance(body.shape, Cylinder):
+        raise InvalidScene(f"body {body.name} is no plane")
+    normal = body.shape.normal
+    axis = _axis(normal)
+    if axis is None:
+        raise NotComparable(f"body {body.name}: only planes whose normal lies along x, y or z have a translation")
+    if scene.domain.boundary[axis] == "periodic":
+        raise InvalidScene(f"body {body.name} is normal to {AXES[axis]}, along which the domain is periodic")
+    side = 1 if normal[axis] > 0 else -1
+    return Plane(index, body.name, body.material, axis, side, body.shape.point[axis], _velocity(body))
+
+
+def _tube(scene: Scene, index: int, body: Body) -> Tube:
+    if not isinstance(body.shape, Cylinder):
+        raise InvalidScene(f"body {body.name} is no cylinder")
+    axis = _axis(body.shape.axis)
+    if axis is None:
+        raise NotComparable(f"body {body.name}: only cylinders along x, y or z have a translation")
+    others = [other for other in range(3) if other != axis]
+    across = next((other for other in others if scene.domain.boundary[other] == "periodic"), None)
+    if across is not None:
+        raise InvalidScene(f"body {body.name} is a cylinder across {AXES[across]}, along which the domain is periodic")
+    place = (body.shape.point[others[0]], body.shape.point[others[1]])
+    return Tube(index, body.name, body.material, axis, place, body.shape.radius, _velocity(body))
+
+
+def _axis(direction: Vector) -> int | None:
+    """The axis along which a unit vector lies, or None."""
+    axes = [axis for axis in range(3) if direction[axis] != 0.0]
+    return axes[0] if len(axes) == 1 and abs(direction[axes[0]]) == 1.0 else None
+
+
+def _velocity(body: Body) -> Vector:
+    if body.motion.kind == "prescribed" and body.motion.velocity is not None:
+        return body.motion.velocity
+    if body.motion.kind != "fixed":
+        raise NotComparable(f"body {body.name}: the motion {body.motion.kind} has no translation")
+    return (0.0, 0.0, 0.0)
 
 
 def touching(scene: Scene) -> list[Pair]:
@@ -140,6 +192,11 @@ def resolved_cut(scene: Scene, default: str) -> str:
 def mirrored(scene: Scene, cut: str, mirror: Mirror) -> Scene:
     """The scene with the cut at zero resolved and the engine options of a mirror."""
     return replace(scene.with_model(force_cut=cut), mirror=mirror)
+
+
+def has_tube(scene: Scene) -> bool:
+    """Whether a body is a cylinder, whose curvature a mirror then states."""
+    return any(isinstance(body.shape, Cylinder) for body in scene.bodies)
 
 
 def gravity(scene: Scene) -> tuple[float, Vector]:

@@ -6,7 +6,7 @@ import functools
 from typing import Any
 
 from cross_check import PACKAGE, toml_file
-from cross_check.scene import Scene
+from cross_check.scene import Cylinder, Plane, Scene
 
 
 class UnknownDifference(Exception):
@@ -26,10 +26,12 @@ def _cut(scene: Scene) -> bool:
 
 
 def _options(scene: Scene) -> dict[str, Any]:
-    planes = len(scene.bodies) > 0
+    planes = any(isinstance(body.shape, Plane) for body in scene.bodies)
+    cylinders = any(isinstance(body.shape, Cylinder) for body in scene.bodies)
     return {
         "force_cut": _cut(scene),
         "plane_radius_factor": scene.mirror.plane_radius_factor if planes else None,
+        "cylinder_curvature": scene.mirror.cylinder_curvature if cylinders else None,
         "start": scene.mirror.start,
     }
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cross_check.geometry import facing, nearest
 from cross_check.record import Array, RunRecord
 from cross_check.scene import Scene
 
@@ -49,7 +50,7 @@ def impact(scene: Scene, record: RunRecord) -> Impact:
     position, velocity = record["position"], record.synchronized_velocity()
     radius = scene.particles[0].radius
     if len(scene.particles) == 2:
-        branch = position[:, 0] - position[:, 1]
+        branch = nearest(scene.domain, position[:, 0] - position[:, 1])
         distance = np.linalg.norm(branch, axis=1)
         normal = branch / distance[:, None]
         overlap = radius + scene.particles[1].radius - distance
@@ -57,9 +58,8 @@ def impact(scene: Scene, record: RunRecord) -> Impact:
     else:
         body = scene.bodies[0]
         wall = np.array(body.motion.velocity or (0.0, 0.0, 0.0))
-        point = np.array(body.shape.point) + wall * record["time"][:, None]
-        normal = np.broadcast_to(np.array(body.shape.normal), position[:, 0].shape)
-        overlap = radius - np.einsum("ij,ij->i", position[:, 0] - point, normal)
+        normal, distance = facing(body.shape, position[:, 0] - wall * record["time"][:, None])
+        overlap = radius - distance
         relative = velocity[:, 0] - wall
     return Impact(
         record["time"],

@@ -15,6 +15,7 @@ import math
 import numpy as np
 from scipy.special import beta
 
+from cross_check.geometry import effective_radius, facing, nearest
 from cross_check.scene import Material, Scene
 
 
@@ -31,7 +32,7 @@ def _impact(scene: Scene) -> tuple[float, float, float]:
     if len(scene.particles) == 2:
         other = scene.particles[1]
         other_mass = 4.0 / 3.0 * math.pi * other.radius**3 * (scene.materials[other.material].density or math.nan)
-        axis = np.subtract(sphere.position, other.position)
+        axis = nearest(scene.domain, np.subtract(sphere.position, other.position))
         speed = -float(np.dot(np.subtract(sphere.velocity, other.velocity), axis) / np.linalg.norm(axis))
         radius = 1.0 / (1.0 / sphere.radius + 1.0 / other.radius)
         mass = 1.0 / (1.0 / mass + 1.0 / other_mass)
@@ -39,8 +40,9 @@ def _impact(scene: Scene) -> tuple[float, float, float]:
     else:
         body = scene.bodies[0]
         relative = np.subtract(sphere.velocity, body.motion.velocity or (0.0, 0.0, 0.0))
-        speed = -float(np.dot(relative, body.shape.normal))
-        radius, partner = sphere.radius, body.material
+        normal, _ = facing(body.shape, np.array([sphere.position]))
+        speed = -float(np.dot(relative, normal[0]))
+        radius, partner = effective_radius(body.shape, sphere.radius), body.material
     compliance = _compliance(scene.materials[sphere.material]) + _compliance(scene.materials[partner])
     overlap = (15.0 / 16.0 * mass * speed**2 * compliance / math.sqrt(radius)) ** 0.4
     return overlap, mass, speed

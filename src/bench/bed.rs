@@ -159,7 +159,7 @@ impl Bed {
 
     fn take<M: ContactModel>(&mut self, simulation: &Simulation<M>) {
         self.edge = simulation.domain().length.x;
-        self.position = simulation.particles().positions().map(|place| simulation.domain().wrap(place)).collect();
+        self.position = simulation.particles().positions().map(|place| simulation.domain().wrap(place).0).collect();
         self.velocity = simulation.particles().velocities().collect();
         self.angular_velocity = simulation.particles().angular_velocities().collect();
     }

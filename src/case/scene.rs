@@ -1,27 +1,24 @@
 //! Scenes: one runnable problem with nothing left to resolve (docs/formats.md).
 
+mod approach;
+mod bodies;
 mod duration;
+mod insertion;
 mod mirror;
+mod particles;
+mod random;
 mod specification;
 mod supported;
 mod valid;
-
-use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
 pub use mirror::{Mirror, Start};
 
 use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
-use super::protocol::{Motion, Shape};
 use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Level};
-use super::source::ParticleSource;
-use crate::Vector;
-use crate::bodies::Body;
 use crate::error::Problem;
-use crate::geometry::{self, ContactGeometry};
-use crate::laws::PairLaw;
 use crate::material::{self, Material, PairProperties};
 
 /// The version of the scene format.
@@ -133,10 +130,19 @@ pub struct SceneParticle {
 }
 
 impl Scene {
-    /// `case/variant`.
+    /// `case/variant/seed=1`, without the parts that the case does not have.
     #[must_use]
     pub fn name(&self) -> String {
-        if self.variant.is_empty() { self.case.clone() } else { format!("{}/{}", self.case, self.variant) }
+        let member = self.member();
+        if member.is_empty() { self.case.clone() } else { format!("{}/{member}", self.case) }
+    }
+
+    /// `variant/seed=1`: which of the scenes of its case it is.
+    #[must_use]
+    pub fn member(&self) -> String {
+        let seed = self.seed.map(|seed| format!("seed={seed}"));
+        let parts = [Some(self.variant.clone()).filter(|variant| !variant.is_empty()), seed];
+        parts.into_iter().flatten().collect::<Vec<_>>().join("/")
     }
 
     /// The pair of two materials, if it is stated.
@@ -150,17 +156,17 @@ fn si<K: Kind, const N: usize>(values: &[Quantity<K>; N]) -> [f64; N] {
     values.map(Quantity::si)
 }
 
-/// Resolves one variant into a scene whose time step is divided by 2^`refinement`.
+/// Resolves one variant, and one seed of its ensemble, into a scene whose time step is divided by 2^`refinement`.
 ///
 /// # Errors
 /// The case asks for what this build does not compute, or its start state or time step is not allowed.
-pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Problem> {
+pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -> Result<Scene, Problem> {
     supported::supported(case)?;
     let mut scene = Scene {
         schema: SCHEMA,
         case: case.name.clone(),
         variant: variant.to_owned(),
-        seed: None,
+        seed,
         refinement,
         level: case.level,
         time_step: 0.0,
@@ -180,14 +186,15 @@ pub fn prepare(case: &Case, variant: &str, refinement: u32) -> Result<Scene, Pro
         particles: Vec::new(),
     };
     scene.pairs = pairs(case, &scene.materials);
-    scene.bodies = bodies(case);
-    scene.particles = case.particles.iter().filter_map(|source| single(case, source)).collect();
-    weighable(&scene)?;
+    scene.bodies = bodies::bodies(case);
+    let origins = particles::place(case, &mut scene)?;
+    particles::weighable(case, &scene, &origins)?;
+    valid::room(case, &scene)?;
     drop_unused_materials(&mut scene);
     let laws = scene.model.specification(&scene.mirror)?;
-    let approaches = approaches(case, &scene)?;
-    duration::steps(case, &mut scene, &laws.normal, &approaches)?;
-    duration::travel(&scene)?;
+    approach::overlaps(case, &scene, &origins)?;
+    duration::steps(case, &mut scene, &laws.normal)?;
+    duration::travel(case, &scene, &origins)?;
     Ok(scene)
 }
 
@@ -252,128 +259,6 @@ fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
         }
     };
     case.pairs.iter().map(mixed).collect()
-}
-
-fn bodies(case: &Case) -> Vec<SceneBody> {
-    let mut scene = Vec::new();
-    for body in &case.bodies {
-        let unit = |direction: &[Number; 3]| Vector::from(direction.map(Number::get)).normalize().into();
-        let shape = match &body.shape {
-            Shape::Plane { point, normal } => SceneShape::Plane { point: si(point), normal: unit(normal) },
-            Shape::Cylinder { point, axis, radius } => {
-                SceneShape::Cylinder { point: si(point), axis: unit(axis), radius: radius.si() }
-            }
-            Shape::Mesh { .. } => continue,
-        };
-        scene.push(SceneBody {
-            name: body.name.clone(),
-            material: index(case, &body.material),
-            shape,
-            motion: match &body.motion {
-                Motion::Prescribed { velocity } => SceneMotion::Prescribed { velocity: si(velocity) },
-                _ => SceneMotion::Fixed,
-            },
-        });
-    }
-    scene
-}
-
-fn single(case: &Case, source: &ParticleSource) -> Option<SceneParticle> {
-    let ParticleSource::Single { material, radius, position, velocity, angular_velocity } = source else { return None };
-    let material = index(case, material);
-    let radius = radius.si();
-    let mass = case.materials[material].density?.si() * (4.0 / 3.0 * PI * radius * radius * radius);
-    Some(SceneParticle {
-        material,
-        radius,
-        mass,
-        moment_of_inertia: 0.4 * mass * radius * radius,
-        position: si(position),
-        velocity: si(velocity),
-        angular_velocity: si(angular_velocity),
-    })
-}
-
-/// A mass or a moment of inertia that underflows or overflows leaves the engine without an acceleration.
-fn weighable(scene: &Scene) -> Result<(), Problem> {
-    for (i, particle) in scene.particles.iter().enumerate() {
-        if !(particle.mass.is_normal() && particle.moment_of_inertia.is_normal()) {
-            return Err(Problem::new(
-                format!("particles.{i}.radius"),
-                format!("{:e} m", particle.radius),
-                format!(
-                    "gives a mass of {:e} kg and a moment of inertia of {:e} kg m2; both must be positive normal numbers",
-                    particle.mass, particle.moment_of_inertia
-                ),
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// A pair of bodies that moves together at the start: the law's view of it and its speed [m/s].
-struct StartApproach {
-    law: PairLaw,
-    speed: f64,
-}
-
-/// Every pair that approaches at the start; refuses overlaps that the case does not permit.
-fn approaches(case: &Case, scene: &Scene) -> Result<Vec<StartApproach>, Problem> {
-    let mut found = Vec::new();
-    let mut add =
-        |key: String, what: &str, geometry: ContactGeometry, mass: f64, materials: [usize; 2], velocity: Vector| {
-            if geometry.overlap > 0.0 && !case.allow_initial_overlap {
-                return Err(Problem::new(
-                    key,
-                    format!("overlap of {:e} m with {what}", geometry.overlap),
-                    "particles start apart, unless allow_initial_overlap = true",
-                ));
-            }
-            let speed = -velocity.dot(&geometry.normal);
-            if let (true, Some(pair)) = (speed > 0.0, scene.pair(materials[0], materials[1])) {
-                found.push(StartApproach { law: pair.law(geometry.effective_radius(), mass), speed });
-            }
-            Ok(())
-        };
-    for (i, one) in scene.particles.iter().enumerate() {
-        let key = format!("particles.{i}.position");
-        let (center, velocity) = (Vector::from(one.position), Vector::from(one.velocity));
-        for (j, other) in scene.particles.iter().enumerate().take(i) {
-            let Some(geometry) = geometry::sphere_sphere(center, one.radius, other.position.into(), other.radius)
-            else {
-                return Err(Problem::new(
-                    key,
-                    format!("{:?}", one.position),
-                    format!("particle {j} is at the same place; two centres differ"),
-                ));
-            };
-            let mass = material::reduced(one.mass, other.mass);
-            add(
-                key.clone(),
-                &format!("particle {j}"),
-                geometry,
-                mass,
-                [one.material, other.material],
-                velocity - Vector::from(other.velocity),
-            )?;
-        }
-        for body in &scene.bodies {
-            let Some(geometry) = Body::new(body).geometry(center, one.radius) else { continue };
-            let wall = match &body.motion {
-                SceneMotion::Prescribed { velocity } => Vector::from(*velocity),
-                SceneMotion::Fixed => Vector::zeros(),
-            };
-            add(
-                key.clone(),
-                &format!("body {}", body.name),
-                geometry,
-                one.mass,
-                [one.material, body.material],
-                velocity - wall,
-            )?;
-        }
-    }
-    Ok(found)
 }
 
 impl ForceCut {

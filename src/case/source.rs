@@ -117,6 +117,18 @@ impl ParticleSource {
         }
     }
 
+    /// Whether it draws from the seed of the ensemble.
+    #[must_use]
+    pub fn draws(&self) -> bool {
+        match self {
+            Self::Single { .. } | Self::File { .. } => false,
+            Self::Lattice { radius, noise, .. } => {
+                noise.si() > 0.0 || matches!(radius, RadiusDistribution::Uniform { .. })
+            }
+            Self::Random { .. } | Self::Ballistic { .. } | Self::Aggregate { .. } => true,
+        }
+    }
+
     /// Whether it can make more than one particle.
     #[must_use]
     pub fn makes_many(&self) -> bool {

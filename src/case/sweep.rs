@@ -34,6 +34,15 @@ pub struct Point {
 }
 
 impl Variant {
+    /// Seeds of its ensemble; one run without a seed if it has none.
+    #[must_use]
+    pub fn seeds(&self) -> Vec<Option<u64>> {
+        match &self.case.ensemble {
+            Some(ensemble) => ensemble.seeds.iter().copied().map(Some).collect(),
+            None => vec![None],
+        }
+    }
+
     /// How messages name it: its points, or nothing for a case without sweeps.
     #[must_use]
     pub fn origin(&self) -> String {

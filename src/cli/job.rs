@@ -74,7 +74,7 @@ impl Job {
     }
 
     fn place(&self, folder: &Path, scene: &Scene) -> PathBuf {
-        if self.scenes.len() == 1 { folder.to_owned() } else { folder.join(&scene.variant) }
+        if self.scenes.len() == 1 { folder.to_owned() } else { folder.join(scene.member()) }
     }
 
     fn run_scene(&self, scene: &Scene, folder: &Path, progress: &ProgressBar, done: u64) -> Result<(), Error> {

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use crate::Vector;
 use crate::domain::Domain;
 use crate::particles::Particles;
 
@@ -130,7 +129,7 @@ impl<'a> Cells<'a> {
                         continue;
                     }
                     let partner = &self.particles.place[*other as usize];
-                    let branch = self.nearest(place.position - partner.position);
+                    let branch = self.domain.nearest(place.position - partner.position);
                     let reach = place.radius + partner.radius + self.gap;
                     if branch.norm_squared() < reach * reach {
                         pairs.push([one.min(*other), one.max(*other)]);
@@ -138,17 +137,6 @@ impl<'a> Cells<'a> {
                 }
             }
         }
-    }
-
-    fn nearest(&self, branch: Vector) -> Vector {
-        let mut near = branch;
-        for axis in 0..3 {
-            let edge = self.domain.length[axis];
-            if self.domain.periodic[axis] && near[axis].abs() > 0.5 * edge {
-                near[axis] -= edge.copysign(near[axis]);
-            }
-        }
-        near
     }
 
     /// Cells of a level that cover a coordinate and a cutoff on both sides [m], each once, as spread bits.

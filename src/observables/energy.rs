@@ -6,6 +6,7 @@
 
 use crate::Vector;
 use crate::contacts::{Account, Contacts};
+use crate::domain::Domain;
 use crate::laws::memory::Memory;
 use crate::particles::Particles;
 
@@ -51,7 +52,14 @@ impl Ledger {
     }
 
     /// Measures the energies of a state whose velocities are ahead of the positions by `ahead` [s].
-    pub fn measure<H: Memory>(&mut self, particles: &Particles, contacts: &Contacts<H>, gravity: &Vector, ahead: f64) {
+    pub fn measure<H: Memory>(
+        &mut self,
+        particles: &Particles,
+        domain: &Domain,
+        contacts: &Contacts<H>,
+        gravity: &Vector,
+        ahead: f64,
+    ) {
         self.kinetic = 0.0;
         self.gravity = 0.0;
         for i in 0..particles.len() {
@@ -61,7 +69,7 @@ impl Ledger {
             let angular = motion.angular_velocity - load.torque * (ahead / inertia);
             self.kinetic += 0.5 * motion.mass * velocity.norm_squared();
             self.kinetic += 0.5 * inertia * angular.norm_squared();
-            self.gravity -= motion.mass * gravity.dot(&particles.place[i].position);
+            self.gravity -= motion.mass * gravity.dot(&particles.unwrapped(i, domain));
         }
         let sum = |accounts: &[Account]| accounts.iter().map(|account| account.energy).sum::<f64>();
         self.elastic = 0.0;

@@ -131,7 +131,7 @@ impl<M: ContactModel> Simulation<M> {
     fn sample(&mut self, recorder: &mut Recorder) -> Result<(), Error> {
         self.finite()?;
         let ledger = self.energies();
-        recorder.sample(self.step, &self.particles, &self.bodies, &ledger);
+        recorder.sample(self.step, &self.particles, &self.domain, &self.bodies, &ledger);
         Ok(())
     }
 

@@ -72,6 +72,7 @@ impl<M: ContactModel> Simulation<M> {
         let particles = &self.particles;
         into.put_counts("step", vec![self.step, self.rebuilds]);
         into.put_all("position", particles.positions());
+        into.put_all("crossings", particles.crossings());
         into.put_all("velocity", particles.velocities());
         into.put_all("angular_velocity", particles.angular_velocities());
         into.put_all("force", particles.loads().map(|load| load.force));
@@ -102,7 +103,7 @@ impl<M: ContactModel> Simulation<M> {
         let mut simulation = Self::unevaluated(setup, model)?;
         let misfit = || setup.refuse("the checkpoint does not fit the scene".to_owned());
         let count = simulation.particles.len();
-        let names = ["position", "velocity", "angular_velocity", "force", "torque", "built_position"];
+        let names = ["position", "crossings", "velocity", "angular_velocity", "force", "torque", "built_position"];
         let bodies = ["body_point", "body_velocity", "body_force", "built_body_point"];
         let fits = names.iter().all(|name| from.get(name).len() == 3 * count)
             && bodies.iter().all(|name| from.get(name).len() == 3 * simulation.bodies.len());
@@ -127,6 +128,7 @@ impl<M: ContactModel> Simulation<M> {
     }
 
     fn place(&mut self, from: &Checkpoint) {
+        self.particles.set_crossings(&from.vectors("crossings"));
         let [position, velocity, angular, force, torque] =
             ["position", "velocity", "angular_velocity", "force", "torque"].map(|name| from.vectors(name));
         for at in 0..self.particles.len() {

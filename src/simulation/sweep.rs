@@ -52,6 +52,7 @@ struct View<'a, M: ContactModel> {
     materials: usize,
     bodies: &'a [Body],
     plane_radius_factor: Option<f64>,
+    cylinder_curvature: Option<f64>,
     shifts: [Vector; 32],
     rows: [Row; 32],
     /// Gap up to which candidates are selected anew [m].
@@ -84,6 +85,7 @@ impl<M: ContactModel> Simulation<M> {
             materials: self.materials,
             bodies: &self.bodies,
             plane_radius_factor: self.plane_radius_factor,
+            cylinder_curvature: self.cylinder_curvature,
             shifts: self.domain.shifts(),
             rows: self.domain.shifts().map(|shift| batch::row(&shift)),
             selection: self.neighbors.selection(self.fastest),
@@ -291,8 +293,17 @@ impl<M: ContactModel> View<'_, M> {
         let (place, motion) = (&local.place[particle], &local.motion[particle]);
         block.body_forces[slot] = Vector::zeros();
         let Some(mut geometry) = body.geometry(place.position, place.radius) else { return };
-        if let (BodyShape::Plane { .. }, Some(factor)) = (body.shape, self.plane_radius_factor) {
-            geometry.radius_j = factor * geometry.radius_i;
+        match body.shape {
+            BodyShape::Plane { .. } => {
+                if let Some(factor) = self.plane_radius_factor {
+                    geometry.radius_j = factor * geometry.radius_i;
+                }
+            }
+            BodyShape::Cylinder { .. } => {
+                if let Some(share) = self.cylinder_curvature {
+                    geometry.radius_j = if share == 0.0 { f64::INFINITY } else { geometry.radius_j / share };
+                }
+            }
         }
         let Some(properties) = &self.table[motion.material as usize * self.materials + body.material] else { return };
         let velocity = motion.velocity - body.velocity;

@@ -26,9 +26,9 @@ def decks(case: str, code: str) -> dict[str, Deck | str]:
     found: dict[str, Deck | str] = {}
     for variant in CASES[case].variants:
         try:
-            found[variant.name or case] = ADAPTERS[code].deck(variant.scenes[0])
+            found[variant.member or case] = ADAPTERS[code].deck(variant.scenes[0])
         except NotComparable as reason:
-            found[variant.name or case] = f"not-comparable({reason})"
+            found[variant.member or case] = f"not-comparable({reason})"
     return found
 
 

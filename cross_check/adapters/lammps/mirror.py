@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cross_check.adapters import laws as contact_laws
-from cross_check.adapters.capability import mirrored
+from cross_check.adapters.capability import has_tube, mirrored
 from cross_check.adapters.lammps.laws import force_cut, history
 from cross_check.mirror_options import (
     Arms,
@@ -64,6 +64,8 @@ def mirror(scene: Scene) -> Scene:
         code="lammps",
         plane_radius_factor=None,
         start="synchronized",
+        # R* = 2 R Rc / (2 Rc - R).
+        cylinder_curvature=0.5 if has_tube(scene) else None,
         tangential=_tangential(scene) if contact_laws.frictional(scene) else None,
         rolling=_rolling(scene),
         twisting=_twisting(scene),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cross_check.adapters import capability
-from cross_check.adapters.capability import AXES, Plane
+from cross_check.adapters.capability import AXES, Plane, Tube
 from cross_check.adapters.dump import HISTORY, PARTICLES, STATE
 from cross_check.adapters.interface import Deck, NotComparable, Row
 from cross_check.adapters.lammps import laws
@@ -22,10 +22,10 @@ MOST_MATERIALS = 31
 
 @dataclass(frozen=True)
 class Wall:
-    """The fix of one plane for one material of particles: commands and rows of the translation."""
+    """The fix of one body for one material of particles: commands and rows of the translation."""
 
     fix: str
-    plane: Plane
+    body: Plane | Tube
     commands: list[str]
     rows: list[Row]
 
@@ -33,6 +33,26 @@ class Wall:
 def _kinds(scene: Scene) -> list[int]:
     """Material index of each atom type, in the order of the types: the materials of the particles only."""
     return sorted({particle.material for particle in scene.particles})
+
+
+def _moved(wall: Plane | Tube) -> tuple[list[str], str, list[Row]]:
+    """Commands and words that move a region by variables, and their row; none for a wall at rest."""
+    if not any(wall.velocity):
+        return [], "", []
+    variables = [f"move_{wall.index + 1}_{name}" for name in AXES]
+    commands = [f"variable {v} equal {number(u)}*time" for v, u in zip(variables, wall.velocity, strict=True)]
+    velocity, key = numbers(wall.velocity), f"bodies.{wall.name}.motion.velocity"
+    row = Row(key, velocity, f"variable move_{wall.index + 1}_*", velocity, "m/s", "velocity * time")
+    return commands, f" move {' '.join('v_' + v for v in variables)}", [row]
+
+
+def _tube(tube: Tube) -> tuple[str, list[str], list[Row]]:
+    """A cylinder is a region, because `zcylinder` stands at the origin only; R* = 2 R Rc / (2 Rc - R)."""
+    name, values = f"tube_{tube.index + 1}", numbers((*tube.place, tube.radius))
+    commands, move, rows = _moved(tube)
+    commands.append(f"region {name} cylinder {AXES[tube.axis]} {values} INF INF side in{move} units box")
+    row = Row(f"bodies.{tube.name}.shape", values, f"region {name}", values, "m", "axis, radius; R* = 2R Rc/(2Rc - R)")
+    return f"region {name}", commands, [row, *rows]
 
 
 def _place(plane: Plane) -> tuple[str, list[str], list[Row]]:
@@ -46,32 +66,27 @@ def _place(plane: Plane) -> tuple[str, list[str], list[Row]]:
         sides = f"{position} NULL" if plane.side > 0 else f"NULL {position}"
         row = Row(f"{key}.shape.point", position, f"wall_{number_of} {axis}plane", sides, "m", "lo above, hi below")
         return f"{axis}plane {sides}", [], [row]
-    variables = [f"move_{number_of}_{name}" for name in AXES]
-    commands = [f"variable {v} equal {number(u)}*time" for v, u in zip(variables, plane.velocity, strict=True)]
+    commands, move, moved = _moved(plane)
     point, normal = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     point[plane.axis], normal[plane.axis] = plane.position, float(plane.side)
     region = f"region plane_{number_of} plane {numbers(point)} {numbers(normal)} side in"
-    commands.append(f"{region} move {' '.join('v_' + v for v in variables)} units box")
-    velocity = numbers(plane.velocity)
-    rows = [
-        Row(f"{key}.shape.point", position, f"region plane_{number_of}", position, "m", f"its {axis}"),
-        Row(f"{key}.motion.velocity", velocity, f"variable move_{number_of}_*", velocity, "m/s", "velocity * time"),
-    ]
-    return f"region plane_{number_of}", commands, rows
+    commands.append(f"{region}{move} units box")
+    row = Row(f"{key}.shape.point", position, f"region plane_{number_of}", position, "m", f"its {axis}")
+    return f"region plane_{number_of}", commands, [row, *moved]
 
 
 def _walls(scene: Scene) -> list[Wall]:
     walls: list[Wall] = []
     pairs = {pair.between: pair for pair in capability.touching(scene)}
-    for plane in capability.planes(scene):
-        words, before, rows = _place(plane)
+    for body in capability.walls(scene):
+        words, before, rows = _tube(body) if isinstance(body, Tube) else _place(body)
         style = "wall/gran/region" if before else "wall/gran"
         for kind, material in enumerate(_kinds(scene), start=1):
-            pair = pairs[min(material, plane.material), max(material, plane.material)]
-            fix = f"wall_{plane.index + 1}_{kind}"
+            pair = pairs[min(material, body.material), max(material, body.material)]
+            fix = f"wall_{body.index + 1}_{kind}"
             model = f"{style} granular {laws.coefficients(scene, pair)}"
             commands = [*before, f"fix {fix} type_{kind} {model} {words} contacts"]
-            walls.append(Wall(fix, plane, commands, rows))
+            walls.append(Wall(fix, body, commands, rows))
             before, rows = [], []
     return walls
 
@@ -146,7 +161,7 @@ def _text(scene: Scene, rows: list[Row], pairs: Sequence[Pair], walls: Sequence[
             "contacts": laws.comment(scene),
             "pairs": _pair_lines(scene, pairs),
             "time_step": number(scene.time_step),
-            "walls": [{"name": word(wall.plane.name), "commands": wall.commands} for wall in walls],
+            "walls": [{"name": word(wall.body.name), "commands": wall.commands} for wall in walls],
             "gravity": number(magnitude),
             "direction": numbers(direction),
             "every": scene.output_every,
@@ -165,7 +180,7 @@ def force_columns(fix: str) -> tuple[str, str, str]:
 
 def wall_columns(scene: Scene) -> list[tuple[int, tuple[str, str, str]]]:
     """Body index and dump columns of every wall fix of the deck."""
-    return [(wall.plane.index, force_columns(wall.fix)) for wall in _walls(scene)]
+    return [(wall.body.index, force_columns(wall.fix)) for wall in _walls(scene)]
 
 
 def types(scene: Scene) -> list[int]:

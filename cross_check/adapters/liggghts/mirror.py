@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cross_check.adapters import laws as contact_laws
-from cross_check.adapters.capability import mirrored
+from cross_check.adapters.capability import has_tube, mirrored
 from cross_check.adapters.liggghts.laws import force_cut
 from cross_check.contact_model import ConstantTorque
 from cross_check.mirror_options import Arms, Mirror, RollingOptions, TangentialOptions
@@ -54,6 +54,8 @@ def mirror(scene: Scene) -> Scene:
         code="liggghts",
         plane_radius_factor=None,
         start="synchronized",
+        # A cylinder acts like a plane.
+        cylinder_curvature=0.0 if has_tube(scene) else None,
         tangential=TANGENTIAL if contact_laws.frictional(scene) else None,
         rolling=_rolling(scene),
         opposed=_opposed(scene),

@@ -22,7 +22,7 @@ def deck(scene: Scene) -> Deck:
     """The LIGGGHTS deck of `scene`. Raises NotComparable or InvalidScene with the reason."""
     capability.check(scene)
     words = laws.words(scene)
-    walls = [wall_of(plane, scene.domain, words.model, words.settings) for plane in capability.planes(scene)]
+    walls = [wall_of(wall, scene.domain, words.model, words.settings) for wall in capability.walls(scene)]
     magnitude, direction = capability.gravity(scene)
     weight = f"{number(magnitude)} vector {numbers(direction)}"
     rows = capability.shared_rows(scene, "timestep", ("fix gravity", weight, "magnitude and direction"))

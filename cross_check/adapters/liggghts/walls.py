@@ -1,11 +1,11 @@
-"""Planes as LIGGGHTS has them: primitive walls, fixed or sliding, and meshes where a plane moves along its normal."""
+"""Walls as LIGGGHTS has them: primitive planes and cylinders at rest or sliding, meshes for planes that are pushed."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from cross_check.adapters.capability import AXES, Plane
+from cross_check.adapters.capability import AXES, Plane, Tube
 from cross_check.adapters.interface import NotComparable, Row
 from cross_check.adapters.render import number, numbers, render, word
 from cross_check.scene import Domain
@@ -13,7 +13,7 @@ from cross_check.scene import Domain
 
 @dataclass(frozen=True)
 class Wall:
-    """One plane in a deck: its name, commands, rows of the translation and the mesh files that it needs."""
+    """One wall in a deck: its name, commands, rows of the translation and the mesh files that it needs."""
 
     name: str
     commands: list[str]
@@ -21,8 +21,30 @@ class Wall:
     files: dict[str, str] = field(default_factory=dict[str, str])
 
 
-def wall_of(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
-    """The wall of one plane; `model` are the first and `settings` the last words of its contact model."""
+def wall_of(wall: Plane | Tube, domain: Domain, model: str, settings: str) -> Wall:
+    """The wall of one body; `model` are the first and `settings` the last words of its contact model."""
+    return _tube(wall, model, settings) if isinstance(wall, Tube) else _plane(wall, domain, model, settings)
+
+
+def _tube(tube: Tube, model: str, settings: str) -> Wall:
+    """A primitive cylinder, at rest or sliding along itself; R* = R, so that it curves like a plane."""
+    moving = [axis for axis in range(3) if tube.velocity[axis] != 0.0]
+    if moving not in ([], [tube.axis]):
+        raise NotComparable(f"body {tube.name}: LIGGGHTS slides a cylinder along itself only")
+    fix, place = f"wall_{tube.index + 1}", f"{AXES[tube.axis]}cylinder"
+    # `ycylinder` takes z before x: the coordinates go round.
+    place_of = tube.place if tube.axis != 1 else tube.place[::-1]
+    key, values = f"bodies.{tube.name}", numbers((tube.radius, *place_of))
+    rows = [Row(f"{key}.shape", values, f"{fix} {place}", values, "m", "radius, axis; R* = R")]
+    shear = ""
+    if moving:
+        shear = f" shear {AXES[tube.axis]} {number(tube.velocity[tube.axis])}"
+        rows.append(_motion_row(tube, f"{fix} shear", shear.removeprefix(" shear ")))
+    words = f"primitive type {tube.material + 1} {place} {values}{shear}{settings}"
+    return Wall(word(tube.name), [f"fix {fix} all wall/gran model {model} store_force yes {words}"], rows)
+
+
+def _plane(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
     moving = [axis for axis in range(3) if plane.velocity[axis] != 0.0]
     if len(moving) > 1:
         raise NotComparable(f"body {plane.name}: LIGGGHTS slides a wall along one axis, or pushes it along its normal")
@@ -69,6 +91,6 @@ def _pushed(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
     return Wall(word(plane.name), commands, rows, {file: text})
 
 
-def _motion_row(plane: Plane, code_key: str, code_value: str) -> Row:
-    key = f"bodies.{plane.name}.motion.velocity"
-    return Row(key, numbers(plane.velocity), code_key, code_value, "m/s", "as stated")
+def _motion_row(wall: Plane | Tube, code_key: str, code_value: str) -> Row:
+    key = f"bodies.{wall.name}.motion.velocity"
+    return Row(key, numbers(wall.velocity), code_key, code_value, "m/s", "as stated")

@@ -3,7 +3,7 @@
 use super::Checker;
 use crate::case::protocol::Action;
 use crate::case::quantity::Length;
-use crate::case::schema::Geometry;
+use crate::case::schema::{Boundary, Geometry};
 use crate::case::source::{ParticleSource, RadiusDistribution};
 
 impl Checker<'_> {
@@ -29,14 +29,19 @@ impl Checker<'_> {
         if self.known_material(format!("{at}.material"), material) && self.is_rigid(material) {
             self.add(format!("{at}.material"), material, "a particle has mass: its material is not rigid");
         }
+        if source.draws() && self.case.ensemble.is_none() {
+            let allowed = format!("{at} draws random numbers: the case states [ensemble] with its seeds");
+            self.add("ensemble", "nothing", allowed);
+        }
         match source {
             ParticleSource::Single { radius, position, .. } => {
                 self.positive(format!("{at}.radius"), *radius);
                 self.inside(&format!("{at}.position"), position);
             }
-            ParticleSource::Random { count, radius, region, .. } => {
+            ParticleSource::Random { count, radius, region, velocity, .. } => {
                 self.many(at, *count, radius);
                 self.region(at, region);
+                self.not_negative(format!("{at}.velocity"), *velocity);
             }
             ParticleSource::Ballistic { count, radius, aggregate, region, .. } => {
                 self.many(at, *count, radius);
@@ -57,6 +62,10 @@ impl Checker<'_> {
                 self.inside(&format!("{at}.origin"), origin);
                 self.positive(format!("{at}.spacing"), *spacing);
                 self.not_negative(format!("{at}.noise"), *noise);
+                let last = std::array::from_fn(|axis| {
+                    Length::new(origin[axis].si() + spacing.si() * f64::from(count[axis].saturating_sub(1)))
+                });
+                self.sites(at, [origin, &last], *noise);
             }
             ParticleSource::File { .. } => {}
         }
@@ -101,6 +110,25 @@ impl Checker<'_> {
             if *coordinate < low || *coordinate > high {
                 let allowed = format!("outside its box, which reaches from {low:?} to {high:?}");
                 self.add(format!("{at}.{axis}"), format!("{coordinate:?}"), allowed);
+            }
+        }
+    }
+
+    /// A lattice and its noise stay inside the open faces of the box; noise may cross a periodic face.
+    fn sites(&mut self, at: &str, [first, last]: [&[Length; 3]; 2], noise: Length) {
+        let domain = &self.case.domain;
+        for axis in 0..3 {
+            let (low, high) = (domain.min[axis], domain.max[axis]);
+            let noise = if domain.boundary[axis] == Boundary::Open { noise.si() } else { 0.0 };
+            let allowed =
+                |side| format!("the {side} site lies outside the box, which reaches from {low:?} to {high:?}");
+            let lowest = Length::new(first[axis].si() - noise);
+            if lowest < low && first[axis] >= low {
+                self.add(format!("{at}.noise"), format!("reaches {lowest:?} along axis {axis}"), allowed("first"));
+            }
+            let highest = Length::new(last[axis].si() + noise);
+            if highest > high {
+                self.add(format!("{at}.spacing"), format!("reaches {highest:?} along axis {axis}"), allowed("last"));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The time step and the number of steps of a scene.
 
-use super::{Scene, SceneMotion, StartApproach};
+use super::particles::Origins;
+use super::{Scene, SceneMotion, approach};
 use crate::Vector;
 use crate::case::protocol::End;
 use crate::case::schema::{Case, TimeStep};
@@ -11,14 +12,29 @@ use crate::laws::registry::Normal;
 pub const MOST_STEPS: f64 = 1e9;
 /// Most numbers of one record, 8 GB.
 const MOST_VALUES: f64 = 1e9;
+/// Most particles whose pairs are all looked at for the shortest impact.
+const MOST_PAIRED: usize = 10_000;
+
+/// Duration of the shortest elastic impact at the start velocities [s], or why there is none.
+fn shortest_impact(scene: &Scene, law: &Normal) -> Result<f64, String> {
+    if scene.particles.len() > MOST_PAIRED {
+        let count = scene.particles.len();
+        return Err(format!(
+            "every pair of the {count} particles would be looked at for its impact, at most {MOST_PAIRED} are allowed; \
+             state a time in s, or a time step as a Rayleigh fraction"
+        ));
+    }
+    let durations = approach::approaches(scene).map(|start| law.impact_duration(&start.law, start.speed));
+    durations.reduce(f64::min).ok_or_else(|| {
+        "nothing approaches anything at the start, so that no contact has a duration; state a time in s".to_owned()
+    })
+}
 
 /// Chooses the time step and the number of steps.
-pub fn steps(case: &Case, scene: &mut Scene, law: &Normal, approaches: &[StartApproach]) -> Result<(), Problem> {
-    let impact = approaches
-        .iter()
-        .map(|start| law.impact_duration(&start.law, start.speed))
-        .reduce(f64::min)
-        .ok_or("nothing approaches anything at the start, so that no contact has a duration; state a time in s");
+pub fn steps(case: &Case, scene: &mut Scene, law: &Normal) -> Result<(), Problem> {
+    let asked = matches!(case.time.step, TimeStep::ContactFraction { .. })
+        || matches!(case.stages[0].end, End::Contacts { .. });
+    let impact = if asked { shortest_impact(scene, law) } else { Ok(0.0) };
     let rayleigh = scene
         .particles
         .iter()
@@ -29,7 +45,7 @@ pub fn steps(case: &Case, scene: &mut Scene, law: &Normal, approaches: &[StartAp
         TimeStep::Fixed { value } => ("time.step.value", value.si()),
         TimeStep::ContactFraction { steps_per_contact } => {
             let key = "time.step.steps_per_contact";
-            let duration = impact.map_err(|why| Problem::new(key, steps_per_contact, why))?;
+            let duration = impact.clone().map_err(|why| Problem::new(key, steps_per_contact, why))?;
             (key, duration / f64::from(*steps_per_contact))
         }
         TimeStep::RayleighFraction { fraction } => ("time.step.fraction", fraction.get() * rayleigh),
@@ -70,7 +86,7 @@ pub fn steps(case: &Case, scene: &mut Scene, law: &Normal, approaches: &[StartAp
 }
 
 /// Nothing moves further than the smallest radius in one step at the start: contacts would be missed.
-pub fn travel(scene: &Scene) -> Result<(), Problem> {
+pub fn travel(case: &Case, scene: &Scene, origins: &Origins) -> Result<(), Problem> {
     let radii = scene.particles.iter().map(|particle| particle.radius);
     let Some(smallest) = radii.reduce(f64::min) else { return Ok(()) };
     let dt = scene.time_step;
@@ -83,7 +99,7 @@ pub fn travel(scene: &Scene) -> Result<(), Problem> {
         return Err(Problem::new("gravity", format!("{:?} m/s2", scene.gravity), allowed(weight)));
     }
     let particles = scene.particles.iter().enumerate();
-    let particles = particles.map(|(i, particle)| (format!("particles.{i}.velocity"), particle.velocity));
+    let particles = particles.map(|(i, particle)| (origins.key(case, i, "velocity"), particle.velocity));
     let walls = scene.bodies.iter().enumerate().filter_map(|(i, body)| match &body.motion {
         SceneMotion::Prescribed { velocity } => Some((format!("bodies.{i}.motion.velocity"), *velocity)),
         SceneMotion::Fixed => None,

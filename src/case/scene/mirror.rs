@@ -19,6 +19,9 @@ pub struct Mirror {
     pub code: Option<Code>,
     /// A plane acts like a sphere whose radius is this multiple of the particle's.
     pub plane_radius_factor: Option<f64>,
+    /// Share of its curvature that a cylinder has in R*: 0 makes it a plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cylinder_curvature: Option<f64>,
     /// Where velocities start.
     pub start: Start,
     /// How the tangential spring works.

@@ -1,7 +1,7 @@
 //! What this build computes of what the schema can say.
 
 use crate::case::protocol::{End, Motion, Shape, Stage};
-use crate::case::schema::{Boundary, Case, Check, Geometry};
+use crate::case::schema::{Case, Check, Geometry};
 use crate::case::source::ParticleSource;
 use crate::case::tag;
 use crate::error::Problem;
@@ -15,23 +15,24 @@ pub fn supported(case: &Case) -> Result<(), Problem> {
     if !matches!(case.geometry, Geometry::Spheres {}) {
         return refuse("geometry.kind", tag(&case.geometry, "kind"), "`spheres`");
     }
-    for (axis, boundary) in case.domain.boundary.iter().enumerate() {
-        if *boundary != Boundary::Open {
-            return refuse(format!("domain.boundary.{axis}"), "periodic", "`open` boundaries");
-        }
-    }
     heat(case)?;
     if let Some(start) = &case.start_from {
         return refuse("start_from.case", &start.case, "cases that state their particles");
     }
     for (i, source) in case.particles.iter().enumerate() {
-        if !matches!(source, ParticleSource::Single { .. }) {
-            return refuse(format!("particles.{i}.kind"), tag(source, "kind"), "`single` particles");
+        let computed = matches!(
+            source,
+            ParticleSource::Single { .. } | ParticleSource::Random { .. } | ParticleSource::Lattice { .. }
+        );
+        if !computed {
+            let what = "particles of the kinds `single`, `random` and `lattice`";
+            return refuse(format!("particles.{i}.kind"), tag(source, "kind"), what);
         }
     }
     for (i, body) in case.bodies.iter().enumerate() {
-        if !matches!(body.shape, Shape::Plane { .. }) {
-            return refuse(format!("bodies.{i}.shape.kind"), tag(&body.shape, "kind"), "the shape `plane`");
+        if matches!(body.shape, Shape::Mesh { .. }) {
+            let kind = tag(&body.shape, "kind");
+            return refuse(format!("bodies.{i}.shape.kind"), kind, "the shapes `plane` and `cylinder`");
         }
         if !matches!(body.motion, Motion::Fixed {} | Motion::Prescribed { .. }) {
             return refuse(
@@ -40,9 +41,6 @@ pub fn supported(case: &Case) -> Result<(), Problem> {
                 "`fixed` and `prescribed` bodies",
             );
         }
-    }
-    if let Some(ensemble) = &case.ensemble {
-        return refuse("ensemble.seeds", format!("{:?}", ensemble.seeds), "cases without an ensemble");
     }
     stages(&case.stages)?;
     if let Some(observable) = case.observables.first() {

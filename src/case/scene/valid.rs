@@ -5,8 +5,36 @@ use std::collections::HashSet;
 use super::duration::MOST_STEPS;
 use super::{SCHEMA, Scene, SceneShape};
 use crate::Vector;
-use crate::error::Error;
+use crate::case::schema::{Boundary, Case};
+use crate::domain::Domain;
+use crate::error::{Error, Problem};
 use crate::laws::registry::Specification;
+use crate::simulation::SKIN;
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Refuses walls that do not fit the periodic axes or the particles, and periodic axes without room for two cutoffs.
+pub fn room(case: &Case, scene: &Scene) -> Result<(), Problem> {
+    for (i, body) in scene.bodies.iter().enumerate() {
+        if let Some((key, value, allowed)) = scene.misfit(&body.shape) {
+            return Err(Problem::new(format!("bodies.{i}.shape.{key}"), value, allowed));
+        }
+    }
+    let radii = || scene.particles.iter().map(|particle| particle.radius);
+    let cutoff = 2.0 * radii().fold(0.0, f64::max) + SKIN * radii().fold(f64::INFINITY, f64::min);
+    match Domain::new(&scene.domain).too_short(cutoff) {
+        Some(axis) => {
+            let allowed = format!(
+                "the periodic axis {} is {:e} m long, at least two cutoffs, {:e} m, are needed",
+                AXES[axis],
+                scene.domain.max[axis] - scene.domain.min[axis],
+                2.0 * cutoff
+            );
+            Err(Problem::new(format!("domain.max.{axis}"), format!("{:?}", case.domain.max[axis]), allowed))
+        }
+        None => Ok(()),
+    }
+}
 
 impl Scene {
     /// Checks what the engine takes for granted.
@@ -66,6 +94,9 @@ impl Scene {
             if (Vector::from(*direction).norm() - 1.0).abs() > 1e-9 {
                 return Some(format!("bodies.{i}.shape.{key} = {direction:?}: must have the length 1"));
             }
+            if let Some((key, value, allowed)) = self.misfit(&body.shape) {
+                return Some(format!("bodies.{i}.shape.{key} = {value}: {allowed}"));
+            }
         }
         let mut places = HashSet::new();
         for (i, particle) in self.particles.iter().enumerate() {
@@ -83,6 +114,30 @@ impl Scene {
             }
         }
         None
+    }
+
+    /// What is wrong with a wall in this box and among these particles: key of the shape, value, what is allowed. Along
+    /// a periodic axis a wall must be the same everywhere.
+    fn misfit(&self, shape: &SceneShape) -> Option<(&'static str, String, String)> {
+        let periodic = |axis: usize| self.domain.boundary[axis] == Boundary::Periodic;
+        match shape {
+            SceneShape::Plane { normal, .. } => {
+                let axis = (0..3).find(|axis| periodic(*axis) && normal[*axis] != 0.0)?;
+                let allowed = format!("has a component along {}, along which the box is periodic", AXES[axis]);
+                Some(("normal", format!("{normal:?}"), allowed))
+            }
+            SceneShape::Cylinder { axis: direction, radius, .. } => {
+                let across = |axis: usize| (0..3).any(|other| other != axis && direction[other] != 0.0);
+                if let Some(axis) = (0..3).find(|axis| periodic(*axis) && across(*axis)) {
+                    let allowed = format!("the box is periodic along {}: only an axis along it fits", AXES[axis]);
+                    return Some(("axis", format!("{direction:?}"), allowed));
+                }
+                let largest = self.particles.iter().map(|particle| particle.radius).fold(0.0, f64::max);
+                let allowed = format!("must be above the largest radius of the particles, {largest:e} m");
+                let too_narrow = radius.is_nan() || *radius <= largest;
+                too_narrow.then(|| ("radius", format!("{radius:e} m"), allowed))
+            }
+        }
     }
 
     /// Values that the laws ask of every pair.

@@ -18,8 +18,8 @@ from cross_check.scene import (
     NormalModel,
     Pair,
     Particle,
+    Plane,
     Scene,
-    Shape,
     Vector,
 )
 
@@ -60,7 +60,7 @@ def sphere(
 def plane(name: str, material: int, point: Vector, normal: Vector, velocity: Vector | None = None) -> Body:
     """A fixed plane, or one that moves at `velocity` [m/s]."""
     motion = Motion("fixed") if velocity is None else Motion("prescribed", velocity)
-    return Body(name, material, Shape("plane", point, normal), motion)
+    return Body(name, material, Plane(point, normal), motion)
 
 
 def scene(

@@ -13,7 +13,7 @@ from cross_check.adapters.lammps.laws import TSUJI, tsuji_number
 from cross_check.adapters.liggghts.laws import restitution_of
 from cross_check.adapters.render import number, word
 from cross_check.adapters.yade.laws import betan_of
-from cross_check.scene import Scene
+from cross_check.scene import Body, Cylinder, Motion, Scene, Vector
 
 from . import scenes
 
@@ -104,8 +104,20 @@ def other_modulus() -> Scene:
 
 
 def periodic() -> Scene:
-    whole = scenes.pair()
+    whole = scenes.floor()
     return replace(whole, domain=replace(whole.domain, boundary=("periodic", "open", "open")))
+
+
+def tube(velocity: Vector = scenes.ZERO, axis: Vector = (0.0, 0.0, 1.0)) -> Scene:
+    motion = Motion("prescribed", velocity) if any(velocity) else Motion("fixed")
+    body = Body("tube", 1, Cylinder(scenes.ZERO, axis, 0.02), motion)
+    return replace(scenes.floor(), bodies=(body,))
+
+
+def across(axis: int, body: Body) -> Scene:
+    whole = scenes.floor()
+    x, y, z = ("periodic" if axis == other else "open" for other in range(3))
+    return replace(whole, domain=replace(whole.domain, boundary=(x, y, z)), bodies=(body,))
 
 
 def overdamped() -> Scene:
@@ -117,7 +129,10 @@ def overdamped() -> Scene:
     ("code", "whole", "reason"),
     [
         ("yade", scenes.pair("off"), "YADE always cuts"),
-        ("yade", periodic(), "periodic"),
+        ("yade", periodic(), "a Wall body in a periodic cell"),
+        ("yade", tube(), "body tube: YADE has no inside of a cylinder"),
+        ("liggghts", tube((0.1, 0.0, 0.0)), "body tube: LIGGGHTS slides a cylinder along itself only"),
+        *((code, tube(axis=(0.6, 0.0, 0.8)), "body tube: only cylinders along x, y or z") for code in ADAPTERS),
         ("yade", other_modulus(), r"YADE forms E\*"),
         ("liggghts", other_modulus(), r"LIGGGHTS forms E\*"),
         ("liggghts", overdamped(), "LIGGGHTS accepts 0.05 < e <= 1.0"),
@@ -139,6 +154,9 @@ def test_what_a_code_has_no_form_for_is_not_comparable(code: str, whole: Scene, 
         ("yade", scenes.pair("off", restitution=1.0)),
         ("yade", pushed(0.1, 0.1, 0.1)),
         ("lammps", pushed(0.1, 0.1, 0.1)),
+        ("lammps", tube((0.1, 0.1, 0.1))),
+        ("liggghts", tube((0.0, 0.0, 0.1))),
+        *((code, across(0, scenes.floor().bodies[0])) for code in ("liggghts", "lammps")),
         ("liggghts", pushed(0.0, 0.0, 0.1)),
         ("lammps", other_modulus()),
         ("lammps", overdamped()),
@@ -161,6 +179,8 @@ def test_what_a_code_has_a_form_for_is_translated(code: str, whole: Scene) -> No
         (replace(scenes.pair(), pairs=()), "no values for glass with glass"),
         (replace(scenes.pair(), particles=()), "no particles"),
         (scenes.pair("maybe"), "force_cut 'maybe' is unknown"),
+        (across(2, scenes.floor().bodies[0]), "body floor is normal to z, along which the domain is periodic"),
+        (across(0, tube().bodies[0]), "body tube is a cylinder across x, along which the domain is periodic"),
     ],
 )
 def test_a_scene_that_no_code_can_run_is_refused(code: str, whole: Scene, reason: str) -> None:
