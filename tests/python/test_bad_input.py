@@ -70,7 +70,7 @@ def record(campaign: Path) -> Path:
         (str(BAD / "not_utf8.toml"), ["not_utf8.toml:2", "not UTF-8"]),
         (str(BAD / "truncated.toml"), ["truncated.toml:18"]),
         (str(BAD / "overlap_at_the_start.toml"), ["particles.1.position", "allow_initial_overlap"]),
-        (str(ROOT / "docs/sketches/silo.toml"), ["particles.0.kind = random", "this version computes only"]),
+        (str(ROOT / "docs/sketches/silo.toml"), ["stages.0.end.kind = at_rest", "this version computes only"]),
     ],
 )
 def test_a_case_that_is_none_is_refused(command: str, what: str, expected: list[str], tmp_path: Path) -> None:
