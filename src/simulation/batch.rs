@@ -114,12 +114,11 @@ impl<H: Copy + Default> Batch<H> {
                 (Vector::new(vx, vy, vz), Vector::new(wx, wy, wz), mass)
             });
             let pair = PairProperties {
-                between: [0; 2],
                 effective_young: self.young[lane],
                 effective_shear: Some(self.shear[lane]),
                 damping_ratio: self.damping[lane],
-                restitution: None,
                 friction: Some(self.friction[lane]),
+                ..PairProperties::default()
             };
             let contact = contact(
                 &pair,
