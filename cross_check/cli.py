@@ -14,9 +14,9 @@ import click
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from cross_check import campaign, doctor, recording, runs, suites
+from cross_check import bench, campaign, doctor, recording, runs, suites
 from cross_check.adapters import ADAPTERS
-from cross_check.adapters.interface import InvalidScene, NotComparable
+from cross_check.adapters.interface import InvalidScene, NotComparable, RunFailed
 from cross_check.compare.checks import UnknownQuantity
 from cross_check.compare.expectations import ExpectationError
 from cross_check.engine import CaseError, load_case
@@ -35,7 +35,16 @@ def _refusing() -> Generator[None]:
     """Turns every foreseen error into one line and the exit code of bad input."""
     try:
         yield
-    except (CaseError, RecordError, UnknownQuantity, ExpectationError, InvalidScene, OSError) as error:
+    except (
+        CaseError,
+        RecordError,
+        UnknownQuantity,
+        ExpectationError,
+        InvalidScene,
+        bench.BenchError,
+        RunFailed,
+        OSError,
+    ) as error:
         _fail(error)
 
 
@@ -179,6 +188,20 @@ def record_(what: str) -> None:
         with _progress(runs.count(cases, runs.Options())) as progress:
             stored, removed = recording.refresh(cases, progress)
     click.echo(f"{stored} records stored, {removed} of other decks removed")
+
+
+@main.command("bench")
+@click.option("--out", type=click.Path(path_type=Path), default=Path("out"), show_default=True, help="Output folder.")
+@click.option("--particles", type=click.IntRange(min=1), default=32_000, show_default=True, help="Size of the bed.")
+@click.option("--steps", type=click.IntRange(min=1), default=300, show_default=True, help="Steps; YADE makes a tenth.")
+@click.option("--repeats", type=click.IntRange(min=1), default=3, show_default=True, help="Turns of every code.")
+def bench_(out: Path, particles: int, steps: int, repeats: int) -> None:
+    """Times the native engine and the installed codes in turns on the jammed bed; writes DIR/bench.json."""
+    options = bench.Options(particles, steps, repeats)
+    with _refusing(), _progress(repeats * (1 + len(bench.CONTESTANTS))) as progress:
+        entries = bench.run(options, out, progress)
+    for line in bench.table(entries):
+        click.echo(line)
 
 
 @contextmanager

@@ -15,18 +15,20 @@ use crate::laws::normal::hertz::Hertz;
 use crate::laws::rotation::Rotation;
 use crate::laws::slider::History;
 use crate::laws::tangential::mindlin::Mindlin;
-use crate::laws::tangential::options::{self, Choices, Dashpot};
+use crate::laws::tangential::options::{self, Choices, CriticalShare};
 use crate::simulation::{Setup, Simulation};
 use bed::Bed;
 
 /// The model of the benchmark.
-pub type Model = Composed<Hertz, Mindlin<Timed>, Free>;
+pub type Model = Composed<Hertz, Mindlin<Timed, CriticalShare>, Free>;
 
 /// The options that the codes timed beside this one share in the main: a displacement that is projected.
 #[derive(Clone, Copy, Debug)]
 pub struct Timed;
 
 impl Choices for Timed {
+    const FIXED: bool = true;
+
     #[allow(clippy::inline_always, reason = "the batch of contacts is vectorised only where laws are inlined")]
     #[inline(always)]
     fn options(&self) -> options::Options {
@@ -41,7 +43,7 @@ impl Choices for Timed {
 /// Hertz, cut at zero, and Mindlin with a displacement history.
 pub const MODEL: Model = Composed {
     normal: Hertz { force_cut: true },
-    tangential: Mindlin { choices: Timed, dashpot: Dashpot::CriticalShare },
+    tangential: Mindlin { choices: Timed, dashpot: CriticalShare },
     moments: Free,
 };
 

@@ -160,6 +160,20 @@ pub struct Flow {
     pub body_work: f64,
 }
 
+impl<H> Block<H> {
+    /// Memory behind it [bytes].
+    fn bytes(&self) -> usize {
+        fn slots<C, H>(slots: &Slots<C, H>) -> usize {
+            size_of_val(&slots.candidates[..])
+                + size_of_val(&slots.history[..])
+                + size_of_val(&slots.alive[..])
+                + size_of_val(&slots.accounts[..])
+        }
+        let lists = size_of_val(&self.body_forces[..]) + size_of_val(&self.exports[..]);
+        slots(&self.pairs) + slots(&self.near) + lists + self.active.capacity() * size_of::<u32>()
+    }
+}
+
 /// All blocks, and for each particle the exports that act on it.
 #[derive(Clone, Debug, Default)]
 pub struct Contacts<H> {
@@ -221,6 +235,13 @@ impl<H: Memory> Contacts<H> {
                 }
             }
         }
+    }
+
+    /// Memory of the slots, their lists and exports, and the imports [bytes].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let own = size_of_val(&self.starts[..]) + size_of_val(&self.imports[..]);
+        self.blocks.iter().map(Block::bytes).sum::<usize>() + own
     }
 
     /// Number of living contacts, pairs and bodies.

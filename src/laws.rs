@@ -121,6 +121,9 @@ pub trait NormalLaw: Copy + Send + Sync {
     /// What all contacts share (a stiffness that ages, a temperature): it advances once per step and keeps what it was
     /// before, because a contact may need both.
     type Shared: Memory;
+    /// Whether the law chooses by value and not by branch, so that a loop over contacts is vectorised and a contact that
+    /// does not live may be evaluated beside others.
+    const BATCHED: bool = false;
 
     /// Advances the shared state by `dt` [s] to `time` [s].
     fn advance(&self, _shared: &mut Self::Shared, _time: f64, _dt: f64) {}
@@ -135,11 +138,13 @@ pub trait NormalLaw: Copy + Send + Sync {
     ) -> NormalState;
 
     /// Lets the tangential force act back on the normal force: laws whose sliding contacts do not pull override it.
+    #[inline(always)]
     fn finish(&self, state: NormalState, _sliding: bool, _history: &mut Self::History) -> NormalState {
         state
     }
 
     /// Whether a contact lives at `overlap` [m]; laws that act across a gap override it.
+    #[inline(always)]
     fn alive(&self, overlap: f64, _history: &Self::History) -> bool {
         overlap > 0.0
     }
@@ -184,6 +189,8 @@ pub struct MomentState {
 pub trait TangentialLaw: Copy + Send + Sync {
     /// What one contact remembers.
     type History: Memory;
+    /// See [`NormalLaw::BATCHED`].
+    const BATCHED: bool = false;
 
     /// The force at a contact over a step `dt` [s].
     fn evaluate(
@@ -199,6 +206,8 @@ pub trait TangentialLaw: Copy + Send + Sync {
 pub trait MomentLaw: Copy + Send + Sync {
     /// What one contact remembers.
     type History: Memory;
+    /// See [`NormalLaw::BATCHED`].
+    const BATCHED: bool = false;
 
     /// The moment over a step `dt` [s].
     fn evaluate(

@@ -125,6 +125,7 @@ pub fn effective_shear(first: &Material, second: &Material) -> f64 {
 
 /// a b / (a + b): the effective radius or mass of two spheres.
 #[must_use]
+#[inline(always)]
 pub fn reduced(a: f64, b: f64) -> f64 {
     a * b / (a + b)
 }

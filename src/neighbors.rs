@@ -19,6 +19,13 @@ use cells::Cells;
 /// Particles that one task searches for: fixed, so that nothing depends on the number of threads.
 const CHUNK: u32 = 512;
 
+/// Steps that a selection of candidates should last.
+const LASTING: f64 = 10.0;
+/// Largest margin of a selection, as a share of the skin.
+const WIDEST: f64 = 0.25;
+/// Share by which sums of displacements are taken as longer, for their rounding.
+const ROUNDING: f64 = 1.0 + 1e-6;
+
 /// A particle and the body that it may touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Near {
@@ -39,19 +46,56 @@ pub struct Neighbors {
     pub built: Vec<Vector>,
     /// Points of the bodies at the last build [m].
     pub built_bodies: Vec<Vector>,
+    /// No particle has moved further since the list was built [m].
+    travelled: f64,
+    /// No particle has moved further since candidates were selected [m].
+    strayed: f64,
+    /// Gap beyond the reach of the law up to which candidates were selected [m].
+    margin: f64,
 }
 
 impl Neighbors {
     /// No list yet.
     #[must_use]
     pub fn new(skin: f64, reach: f64) -> Self {
-        Self { skin, reach, built: Vec::new(), built_bodies: Vec::new() }
+        Self {
+            skin,
+            reach,
+            built: Vec::new(),
+            built_bodies: Vec::new(),
+            travelled: f64::INFINITY,
+            strayed: f64::INFINITY,
+            margin: 0.0,
+        }
     }
 
     /// Square of the displacement that makes the list stale [m2].
     #[must_use]
     pub fn allowance(&self) -> f64 {
         0.25 * self.skin * self.skin
+    }
+
+    /// Says that no particle moved further than `step` [m]; infinity where nobody knows.
+    pub fn moved(&mut self, step: f64) {
+        self.travelled += step * ROUNDING;
+        self.strayed += step * ROUNDING;
+    }
+
+    /// Whether a particle may have moved by half the skin: only then its displacement has to be looked at.
+    #[must_use]
+    pub fn may_be_stale(&self) -> bool {
+        2.0 * self.travelled >= self.skin
+    }
+
+    /// The gap up to which candidates have to be selected anew [m], None while the last selection holds every pair that
+    /// touches. Particles of late moved by at most `step` [m] in a step. Results do not depend on it.
+    pub fn selection(&mut self, step: f64) -> Option<f64> {
+        if 2.0 * self.strayed < self.margin {
+            return None;
+        }
+        self.strayed = 0.0;
+        self.margin = (2.0 * LASTING * step).min(WIDEST * self.skin);
+        Some(self.reach + self.margin)
     }
 
     /// Largest squared displacement of a body since the list was built [m2].
@@ -74,6 +118,7 @@ impl Neighbors {
     pub fn search(&mut self, particles: &Particles, bodies: &[Body], domain: &Domain) -> (Vec<[u32; 2]>, Vec<Near>) {
         self.built = particles.place.iter().map(|place| place.position).collect();
         self.built_bodies = bodies.iter().map(|body| body.point).collect();
+        (self.travelled, self.strayed) = (0.0, f64::INFINITY);
         let gap = self.skin + self.reach;
         let cells = Cells::new(particles, domain, gap);
         let count = u32::try_from(particles.len()).unwrap_or(u32::MAX);

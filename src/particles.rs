@@ -100,6 +100,16 @@ impl Particles {
         &self.index
     }
 
+    /// Memory of the columns [bytes].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.place[..])
+            + size_of_val(&self.motion[..])
+            + size_of_val(&self.load[..])
+            + size_of_val(&self.moment_of_inertia[..])
+            + size_of_val(&self.index[..])
+    }
+
     /// Puts the particle at place `order[k]` to place k.
     pub fn reorder(&mut self, order: &[u32]) {
         fn take<T: Copy>(column: &mut Vec<T>, order: &[u32]) {

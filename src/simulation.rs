@@ -1,6 +1,7 @@
 //! One step is the passes in order, nothing else: move the particles, rebuild the neighbour list if it is stale, sweep
 //! over the contacts, gather.
 
+mod batch;
 mod drive;
 mod motion;
 pub mod run;
@@ -139,6 +140,8 @@ pub struct Simulation<M: ContactModel> {
     step: u64,
     rebuilds: u64,
     stale: bool,
+    /// Largest displacement of a particle in the last step [m].
+    fastest: f64,
 }
 
 impl<M: ContactModel> Simulation<M> {
@@ -178,6 +181,7 @@ impl<M: ContactModel> Simulation<M> {
             step: 0,
             rebuilds: 0,
             stale: false,
+            fastest: 0.0,
             model,
         })
     }
@@ -191,8 +195,7 @@ impl<M: ContactModel> Simulation<M> {
             }
         }
         self.drive(0);
-        self.forces(0.0);
-        self.arrive();
+        self.forces(0.0, self.arrival());
         self.hold();
     }
 
@@ -213,14 +216,12 @@ impl<M: ContactModel> Simulation<M> {
                 self.rebuild()?;
             }
             self.step += 1;
-            self.forces(self.time_step);
+            let then = if self.step < step { self.arrival_and_departure() } else { self.arrival() };
+            self.forces(self.time_step, then);
+            self.account_drives();
             if self.step < step {
-                self.arrive_and_depart();
-                self.account_drives();
                 self.drive(self.step + 1);
             } else {
-                self.arrive();
-                self.account_drives();
                 self.hold();
             }
         }
@@ -268,6 +269,7 @@ impl<M: ContactModel> Simulation<M> {
     /// Gives the periodic axes the edge `edge` [m] and moves the particles affinely; velocities stay.
     pub fn rescale(&mut self, edge: f64) {
         let old = self.domain.length;
+        self.neighbors.moved(f64::INFINITY);
         for axis in (0..3).filter(|axis| self.domain.periodic[*axis]) {
             self.domain.length[axis] = edge;
             let (min, factor) = (self.domain.min[axis], edge / old[axis]);
@@ -296,6 +298,12 @@ impl<M: ContactModel> Simulation<M> {
     #[must_use]
     pub fn step(&self) -> u64 {
         self.step
+    }
+
+    /// Memory of particles, contacts and the neighbour list between two rebuilds [bytes].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.particles.bytes() + self.contacts.bytes() + size_of_val(&self.neighbors.built[..])
     }
 
     /// How often the neighbour list was built.

@@ -256,3 +256,51 @@ fn a_bed_is_the_same_for_the_same_seed() {
     assert_eq!(built.position, read.position);
     assert!((built.edge.powi(3) * 0.615 / (200.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9) - 1.0).abs() < 1e-12);
 }
+
+#[test]
+fn a_particle_of_a_dense_bed_takes_less_than_a_kilobyte() {
+    let mut setup = crowd(20, 1.0);
+    setup.ledger = false;
+    setup.skin = Some(0.8e-3);
+    let mut simulation = Simulation::new(&setup, MODEL).unwrap();
+    simulation.advance_to(10).unwrap();
+    let pairs: usize = simulation.contacts().blocks.iter().map(|block| block.pairs.candidates.len()).sum();
+    // A jammed bed has 5.1 pairs per particle within the usual skin.
+    assert!(pairs > 6 * setup.particles.len(), "{pairs} pairs");
+    let bytes = simulation.bytes() / setup.particles.len();
+    assert!(bytes > 200, "{bytes} bytes do not hold a particle and its pairs");
+    assert!(bytes < 1000, "{bytes} bytes per particle");
+}
+
+#[test]
+fn batches_and_single_contacts_have_the_same_bits() {
+    // With a ledger contacts are evaluated one by one, without one several at a time; blocks of every filling.
+    for edge in [2, 3, 5, 9] {
+        let mut setup = crowd(edge + 1, 2.0);
+        let states = [true, false].map(|ledger| {
+            setup.ledger = ledger;
+            bits(&run(&setup, 200))
+        });
+        assert!(states[0] == states[1], "{} particles", setup.particles.len());
+    }
+}
+
+#[test]
+fn a_selection_that_lasts_several_steps_misses_no_contact() {
+    // A restart selects anew; slow and fast crowds, whose selections last long and short.
+    for factor in [1e-3, 1.0, 20.0] {
+        let mut setup = crowd(8, 1.3);
+        for particle in &mut setup.particles {
+            particle.velocity = particle.velocity.map(|component| component * factor);
+        }
+        let whole = run(&setup, 60);
+        let mut broken = Simulation::new(&setup, MODEL).unwrap();
+        for step in 1..=60 {
+            broken.advance_to(step).unwrap();
+            let mut saved = Checkpoint::default();
+            broken.save(&mut saved);
+            broken = Simulation::restore(&setup, MODEL, &saved).unwrap();
+        }
+        assert!(bits(&whole) == bits(&broken), "velocities times {factor}");
+    }
+}

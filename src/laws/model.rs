@@ -28,6 +28,8 @@ pub trait ContactModel: Copy + Send + Sync {
     type History: Memory;
     /// What all contacts share.
     type Shared: Memory;
+    /// Whether contacts are evaluated several at a time, see [`NormalLaw::BATCHED`].
+    const BATCHED: bool;
 
     /// Advances the shared state by `dt` [s] to `time` [s].
     fn advance(&self, shared: &mut Self::Shared, time: f64, dt: f64);
@@ -56,11 +58,13 @@ pub struct Composed<N, T, M> {
 impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, T, M> {
     type History = (N::History, T::History, M::History);
     type Shared = N::Shared;
+    const BATCHED: bool = N::BATCHED && T::BATCHED && M::BATCHED;
 
     fn advance(&self, shared: &mut Self::Shared, time: f64, dt: f64) {
         self.normal.advance(shared, time, dt);
     }
 
+    #[inline(always)]
     fn alive(&self, overlap: f64, history: &Self::History) -> bool {
         self.normal.alive(overlap, &history.0)
     }
@@ -96,6 +100,7 @@ pub struct Frictionless;
 
 impl TangentialLaw for Frictionless {
     type History = ();
+    const BATCHED: bool = true;
 
     #[inline(always)]
     fn evaluate(&self, _: &Contact, _: &NormalState, _: f64, (): &mut ()) -> TangentialState {
@@ -117,6 +122,7 @@ pub struct Free;
 
 impl MomentLaw for Free {
     type History = ();
+    const BATCHED: bool = true;
 
     #[inline(always)]
     fn evaluate(&self, _: &Contact, _: &NormalState, _: &TangentialState, _: f64, (): &mut ()) -> MomentState {

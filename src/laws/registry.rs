@@ -22,7 +22,7 @@ use super::normal::hertz::Hertz;
 use super::normal::hysteretic_branches::Rule;
 use super::normal::linear_spring_dashpot::LinearSpringDashpot;
 use super::tangential::mindlin::Mindlin;
-use super::tangential::options::{Dashpot, Options, Plain};
+use super::tangential::options::{Dashpot, Options};
 
 /// A normal law; values that belong to pairs are not here.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -118,11 +118,10 @@ impl Specification {
             (Normal::Hertz { force_cut }, Tangential::Frictionless) => {
                 visitor.visit(Composed { normal: Hertz { force_cut }, tangential: Frictionless, moments: Free })
             }
-            (Normal::Hertz { force_cut }, Tangential::Mindlin { dashpot, options })
+            (Normal::Hertz { force_cut }, Tangential::Mindlin { dashpot: Dashpot::CriticalShare, options })
                 if options == Options::plain() && moments == Moments::NONE =>
             {
-                let tangential = Mindlin { choices: Plain, dashpot };
-                visitor.visit(Composed { normal: Hertz { force_cut }, tangential, moments: Free })
+                visitor.visit(Composed { normal: Hertz { force_cut }, tangential: Mindlin::plain(), moments: Free })
             }
             _ => visitor.visit(Composed {
                 normal: AnyNormal::new(&normal),

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::Vector;
 
 use super::Contact;
+use super::slider::Carry;
 
 /// Rotation of a remembered vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -61,6 +62,40 @@ impl Turn {
     }
 }
 
+/// A rotation over one turn, for vectors in the contact plane.
+#[derive(Clone, Copy, Debug)]
+pub struct InPlane<'a> {
+    /// The rotation.
+    pub rotation: Rotation,
+    /// The turn.
+    pub turn: &'a Turn,
+    /// See [`Rotation::carry`].
+    pub negligible: f64,
+}
+
+impl Carry for InPlane<'_> {
+    #[inline(always)]
+    fn carry(&self, vector: &Vector) -> Vector {
+        self.rotation.carry(vector, self.turn, self.negligible)
+    }
+}
+
+/// A rotation over one turn, for vectors along the normal.
+#[derive(Clone, Copy, Debug)]
+pub struct AlongNormal<'a> {
+    /// The rotation.
+    pub rotation: Rotation,
+    /// The turn.
+    pub turn: &'a Turn,
+}
+
+impl Carry for AlongNormal<'_> {
+    #[inline(always)]
+    fn carry(&self, vector: &Vector) -> Vector {
+        self.rotation.carry_along_normal(vector, self.turn)
+    }
+}
+
 impl Rotation {
     /// `vector` after `turn`. `projection_rescaled` leaves alone a vector whose part along the normal is at most
     /// `negligible`, as LAMMPS does.
@@ -74,9 +109,11 @@ impl Rotation {
                 let along = vector.dot(&turn.to);
                 let flat = vector - turn.to * along;
                 let (before, after) = (vector.norm_squared(), flat.norm_squared());
-                let stretch = if after > 0.0 { (before / after).sqrt() } else { 0.0 };
                 let kept = along.abs() <= negligible;
-                flat * if kept { 1.0 } else { stretch } + turn.to * if kept { along } else { 0.0 }
+                let grown = if after > 0.0 { before / after } else { 0.0 };
+                // One root of either: a root on one side only would be a branch.
+                let stretch = if kept { 1.0 } else { grown }.sqrt();
+                flat * stretch + turn.to * if kept { along } else { 0.0 }
             }
             Self::SmallAngles => {
                 let tilted = vector - vector.cross(&turn.from.cross(&turn.to));

@@ -123,16 +123,27 @@ pub struct Response {
     pub carried: f64,
 }
 
+/// Takes a remembered vector along with its contact. A trait and no closure, so that it is always inlined.
+pub trait Carry {
+    /// `vector` one step later.
+    fn carry(&self, vector: &Vector) -> Vector;
+}
+
 impl Rules {
-    /// Advances `memory` by one step; `carry` turns a vector with the contact.
+    /// A value and its increment, in the order of the rules.
     #[inline(always)]
-    pub fn advance(&self, step: &Step, memory: &mut Memory, carry: impl Fn(&Vector) -> Vector) -> Response {
+    fn grow(self, start: &Vector, stored: &Vector, increment: Vector, turn: &impl Carry) -> Vector {
+        match self.order {
+            Order::RotateFirst => start + increment,
+            Order::IncrementFirst => turn.carry(&(stored + increment)),
+        }
+    }
+
+    /// Advances `memory` by one step; `turn` takes a vector along with the contact.
+    #[inline(always)]
+    pub fn advance(&self, step: &Step, memory: &mut Memory, turn: &impl Carry) -> Response {
         let (stored, before) = *memory;
-        let turned = carry(&stored);
-        let grown = |start: &Vector, rate: &Vector| match self.order {
-            Order::RotateFirst => start + rate,
-            Order::IncrementFirst => carry(&(stored + rate)),
-        };
+        let turned = turn.carry(&stored);
         let displacement = self.history == History::Displacement;
         let shrink = if self.history == History::ForceRescaled && step.stiffness < before {
             step.stiffness / before
@@ -143,11 +154,11 @@ impl Rules {
         let gain = if grows { 0.5 * (before + step.stiffness) } else { step.stiffness };
         // Elastic forces: of the last step, at the start of this one, and with the increment.
         let (last, base, remembered, trial) = if displacement {
-            let grown = grown(&turned, &(step.rate * step.dt));
+            let grown = self.grow(&turned, &stored, step.rate * step.dt, turn);
             (turned * -before, turned * -step.stiffness, grown, grown * -step.stiffness)
         } else {
             let base = turned * shrink;
-            let grown = grown(&base, &(step.rate * (-gain * step.dt)));
+            let grown = self.grow(&base, &stored, step.rate * (-gain * step.dt), turn);
             (turned, base, grown, grown)
         };
         let dashpot = step.rate * -step.dashpot;
@@ -191,7 +202,11 @@ impl Rules {
 /// Chosen by value, not by branch, so that contacts can be evaluated several at a time.
 #[inline(always)]
 fn choose(first: bool, one: &Vector, other: &Vector) -> Vector {
-    Vector::from_fn(|axis, _| if first { one[axis] } else { other[axis] })
+    Vector::new(
+        if first { one.x } else { other.x },
+        if first { one.y } else { other.y },
+        if first { one.z } else { other.z },
+    )
 }
 
 #[cfg(test)]
@@ -199,6 +214,14 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+
+    struct Still;
+
+    impl Carry for Still {
+        fn carry(&self, vector: &Vector) -> Vector {
+            *vector
+        }
+    }
 
     proptest! {
         #[test]
@@ -214,7 +237,7 @@ mod tests {
                     for (x, y, stiffness, limit) in &steps {
                         let rate = Vector::new(*x, *y, 0.0);
                         let step = Step { rate, stiffness: *stiffness, dashpot: 0.0, limit: *limit, dt: 0.01 };
-                        let response = rules.advance(&step, &mut memory, |vector| *vector);
+                        let response = rules.advance(&step, &mut memory, &Still);
                         work -= 0.5 * (response.force + last).dot(&rate) * 0.01;
                         last = response.force;
                         lost += response.slider + response.carried;

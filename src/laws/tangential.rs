@@ -5,7 +5,7 @@ pub mod linear_history;
 pub mod mindlin;
 pub mod options;
 
-use crate::laws::rotation::Turn;
+use crate::laws::rotation::{InPlane, Turn};
 use crate::laws::slider::{Cap, History, Increment, Memory, Order, Rules, Step};
 use crate::laws::{Contact, Losses, NormalState, TangentialState};
 
@@ -60,7 +60,7 @@ fn spring(
         cap: options.cap,
     };
     let step = Step { rate, stiffness, dashpot, limit, dt };
-    let response = rules.advance(&step, history, |vector| options.rotation.carry(vector, &turn, negligible));
+    let response = rules.advance(&step, history, &InPlane { rotation: options.rotation, turn: &turn, negligible });
     // Work of the force on a slip that the spring does not see, where its arms in torque and slip differ.
     let unseen = contact.angular_i * (torque_i - slip_i) + contact.angular_j * (torque_j - slip_j);
     let arms_work = response.force.dot(&unseen.cross(&direction)) * dt;

@@ -37,9 +37,13 @@ impl<M: ContactModel> Simulation<M> {
         }
         self.hold();
         // Anew: the pass before this one moved driven particles by what their loads would do.
-        let places = self.particles.place.iter().zip(&self.neighbors.built);
-        let furthest = places.map(|(place, built)| (place.position - built).norm_squared()).fold(0.0, f64::max);
-        self.stale = furthest >= self.neighbors.allowance();
+        let speeds = self.drivers.iter().map(|driver| driver.now.velocity.norm());
+        let longest = speeds.fold(0.0, f64::max) * self.time_step;
+        if longest > self.fastest {
+            self.neighbors.moved(longest - self.fastest);
+            self.fastest = longest;
+        }
+        self.stale = self.furthest() >= self.neighbors.allowance();
     }
 
     /// Gives driven particles the velocities of the present step, which no load changes.

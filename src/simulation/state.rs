@@ -122,6 +122,7 @@ impl<M: ContactModel> Simulation<M> {
         }
         simulation.neighbors.order(&mut simulation.particles, &simulation.domain);
         simulation.list(None);
+        simulation.neighbors.moved(f64::INFINITY);
         simulation.place(from);
         if simulation.fill(from) { Ok(simulation) } else { Err(misfit()) }
     }

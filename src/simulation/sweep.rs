@@ -1,4 +1,5 @@
-//! The sweep over contacts. A block selects the candidates that may touch, evaluates them, and adds to its particles.
+//! The sweep over contacts. A block selects the candidates that may touch within the next steps, evaluates them, and adds
+//! to its particles.
 
 use rayon::prelude::*;
 
@@ -13,9 +14,35 @@ use crate::neighbors::Near;
 use crate::particles::{Load, Motion, Place};
 
 use super::Simulation;
+use super::batch::{self, Batch, FEWEST, LANES, Row};
+use super::motion::{Chunk, Moved, Pass};
 
 /// Share by which the first, cheap test of a pair is wider than the law's own.
 const SLACK: f64 = 1.0 + 1e-12;
+
+/// Particles from the first one of a block on: its pairs reach none before.
+#[derive(Clone, Copy)]
+struct Local<'a> {
+    first: usize,
+    place: &'a [Place],
+    motion: &'a [Motion],
+}
+
+impl<'a> Local<'a> {
+    fn new(first: usize, place: &'a [Place], motion: &'a [Motion]) -> Self {
+        Self { first, place: &place[first..], motion: &motion[first..] }
+    }
+
+    #[inline(always)]
+    fn places(&self, pair: Pair) -> [&'a Place; 2] {
+        [&self.place[pair.i() - self.first], &self.place[pair.j() - self.first]]
+    }
+
+    #[inline(always)]
+    fn motions(&self, pair: Pair) -> [&'a Motion; 2] {
+        [&self.motion[pair.i() - self.first], &self.motion[pair.j() - self.first]]
+    }
+}
 
 /// What all blocks read during a sweep.
 struct View<'a, M: ContactModel> {
@@ -23,48 +50,72 @@ struct View<'a, M: ContactModel> {
     shared: &'a M::Shared,
     table: &'a [Option<PairProperties>],
     materials: usize,
-    place: &'a [Place],
-    motion: &'a [Motion],
     bodies: &'a [Body],
     plane_radius_factor: Option<f64>,
     cylinder_curvature: Option<f64>,
     shifts: [Vector; 32],
-    reach: f64,
+    rows: [Row; 32],
+    /// Gap up to which candidates are selected anew [m].
+    selection: Option<f64>,
     elapsed: f64,
 }
 
 impl<M: ContactModel> Simulation<M> {
-    /// Loads at the present positions, but for the exports; `elapsed` [s] is the time since the last sweep.
-    pub(super) fn forces(&mut self, elapsed: f64) {
+    /// Loads at the present positions, but for the exports, after `elapsed` [s] since the last sweep; then the pass over
+    /// particles.
+    pub(super) fn forces(&mut self, elapsed: f64, then: Pass) {
+        let passed = self.sweep(elapsed, (rayon::current_num_threads() == 1).then_some(then));
+        self.body_forces();
+        if self.ledger_kept {
+            self.ledger.accumulate(&self.contacts);
+        }
+        match passed {
+            Some(moved) => self.note(then, moved),
+            None => self.pass(then),
+        }
+    }
+
+    /// The sweeps over all blocks, and on one thread the pass over the particles of each block right behind.
+    fn sweep(&mut self, elapsed: f64, then: Option<Pass>) -> Option<Moved> {
         self.model.advance(&mut self.shared, self.step as f64 * self.time_step, elapsed);
         let view = View {
             model: self.model,
             shared: &self.shared,
             table: &self.table,
             materials: self.materials,
-            place: &self.particles.place,
-            motion: &self.particles.motion,
             bodies: &self.bodies,
             plane_radius_factor: self.plane_radius_factor,
             cylinder_curvature: self.cylinder_curvature,
             shifts: self.domain.shifts(),
-            reach: self.neighbors.reach,
+            rows: self.domain.shifts().map(|shift| batch::row(&shift)),
+            selection: self.neighbors.selection(self.fastest),
             elapsed,
         };
-        let sweep = |block: &mut Block<M::History>, loads: &mut [Load]| {
-            if self.ledger_kept { view.sweep::<true>(block, loads) } else { view.sweep::<false>(block, loads) }
+        let kept = self.ledger_kept;
+        let sweep = |local: Local, block: &mut Block<M::History>, loads: &mut [Load]| {
+            if kept { view.sweep::<true>(local, block, loads) } else { view.sweep::<false>(local, block, loads) }
         };
-        let blocks = &mut self.contacts.blocks;
-        if blocks.len() > 1 {
-            let loads = self.particles.load.par_chunks_mut(BLOCK);
-            blocks.par_iter_mut().zip(loads).for_each(|(block, loads)| sweep(block, loads));
-        } else if let Some(block) = blocks.first_mut() {
-            sweep(block, &mut self.particles.load);
+        let (particles, contacts) = (&mut self.particles, &mut self.contacts);
+        if then.is_none() && contacts.blocks.len() > 1 {
+            let (place, motion) = (&particles.place[..], &particles.motion[..]);
+            let loads = particles.load.par_chunks_mut(BLOCK);
+            let blocks = contacts.blocks.par_iter_mut().zip(loads);
+            blocks.for_each(|(block, loads)| sweep(Local::new(block.first, place, motion), block, loads));
+        } else {
+            let mut moved = Moved::default();
+            for index in 0..contacts.blocks.len() {
+                let block = &mut contacts.blocks[index];
+                let (first, end) = (block.first, particles.place.len().min(block.first + BLOCK));
+                let local = Local::new(first, &particles.place, &particles.motion);
+                sweep(local, block, &mut particles.load[first..end]);
+                if let Some(pass) = then {
+                    // Later blocks do not look back, so that these particles may move while they are at hand.
+                    moved = moved.or(Chunk::of(first..end, particles, &self.neighbors.built).pass(pass, contacts));
+                }
+            }
+            return then.map(|_| moved);
         }
-        self.body_forces();
-        if self.ledger_kept {
-            self.ledger.accumulate(&self.contacts);
-        }
+        None
     }
 
     /// Sum of the forces on each body in the order of memory [N].
@@ -80,49 +131,129 @@ impl<M: ContactModel> Simulation<M> {
     }
 }
 
+/// The sweep over one block, compiled for each width of vectors that processors have; the bits are the same for all.
+struct Task<'a, 'b, M: ContactModel> {
+    view: &'a View<'b, M>,
+    local: Local<'a>,
+    block: &'a mut Block<M::History>,
+    loads: &'a mut [Load],
+}
+
+impl<M: ContactModel> pulp::NullaryFnOnce for Task<'_, '_, M> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.view.batches(self.local, self.block, self.loads);
+    }
+}
+
 impl<M: ContactModel> View<'_, M> {
-    fn sweep<const LEDGER: bool>(&self, block: &mut Block<M::History>, loads: &mut [Load]) {
+    fn sweep<const LEDGER: bool>(&self, local: Local, block: &mut Block<M::History>, loads: &mut [Load]) {
         loads.fill(Load::default());
-        block.exports.fill(Load::default());
         block.flow = Flow::default();
-        let mut active = std::mem::take(&mut block.active);
-        self.select(&block.pairs, &mut active);
-        let border = active.partition_point(|slot| (*slot as usize) < block.inside);
-        for slot in &active[..border] {
-            let slot = *slot as usize;
-            let pair = block.pairs.candidates[slot];
-            if let Some(action) = self.pair::<LEDGER>(pair, slot, &mut block.pairs, &mut block.flow) {
-                push(&mut loads[pair.i() - block.first], action.force, action.torque_i);
-                push(&mut loads[pair.j() - block.first], -action.force, action.torque_j);
-            }
+        if let Some(gap) = self.selection {
+            // Only selected pairs write their exports.
+            block.exports.fill(Load::default());
+            let mut active = std::mem::take(&mut block.active);
+            self.select(local, &block.pairs, gap, &mut active);
+            block.active = active;
         }
-        for slot in &active[border..] {
-            let slot = *slot as usize;
-            let pair = block.pairs.candidates[slot];
-            if let Some(action) = self.pair::<LEDGER>(pair, slot, &mut block.pairs, &mut block.flow) {
-                let (own, other) = if pair.i() < pair.j() { (pair.i(), false) } else { (pair.j(), true) };
-                let mut ends = [(action.force, action.torque_i), (-action.force, action.torque_j)];
-                if other {
-                    ends.swap(0, 1);
-                }
-                push(&mut loads[own - block.first], ends[0].0, ends[0].1);
-                push(&mut block.exports[slot - block.inside], ends[1].0, ends[1].1);
-            }
+        if M::BATCHED && !LEDGER {
+            pulp::Arch::new().dispatch(Task { view: self, local, block, loads });
+        } else {
+            self.singles::<LEDGER>(local, 0, block, loads);
         }
-        block.active = active;
         for slot in 0..block.near.candidates.len() {
-            self.near::<LEDGER>(slot, block, loads);
+            self.near::<LEDGER>(local, slot, block, loads);
         }
     }
 
-    /// Lists the slots whose contacts may act now, or acted before.
-    fn select(&self, pairs: &Slots<Pair, M::History>, active: &mut Vec<u32>) {
+    /// Contacts several at a time; those that fill no batch follow one by one.
+    #[inline(always)]
+    fn batches(&self, local: Local, block: &mut Block<M::History>, loads: &mut [Load]) {
+        let mut batch = Batch::new();
+        let only = if let [Some(properties)] = self.table {
+            (0..LANES).for_each(|lane| batch.set_properties(lane, properties));
+            true
+        } else {
+            false
+        };
+        let (first, inside) = (block.first, block.inside);
+        let (candidates, exports) = (&block.pairs.candidates[..], &mut block.exports[..]);
+        let (histories, living) = (&mut block.pairs.history[..], &mut block.pairs.alive[..]);
+        let mut done = 0;
+        while block.active.len() - done >= FEWEST {
+            let slots = &block.active[done..block.active.len().min(done + LANES)];
+            for (slot, lane) in slots.iter().zip(0..LANES) {
+                let pair = candidates[*slot as usize];
+                let motions = local.motions(pair);
+                batch.fill(lane, local.places(pair), motions, &self.rows[pair.image()], &histories[*slot as usize]);
+                if !only {
+                    let row = motions[0].material as usize * self.materials;
+                    if let Some(properties) = &self.table[row + motions[1].material as usize] {
+                        batch.set_properties(lane, properties);
+                    }
+                }
+            }
+            batch.evaluate(self.model, *self.shared, self.elapsed);
+            for (slot, lane) in slots.iter().zip(0..LANES) {
+                let slot = *slot as usize;
+                let pair = candidates[slot];
+                let history = batch.history(lane);
+                living[slot] = history.is_some();
+                histories[slot] = history.copied().unwrap_or_default();
+                if slot < inside {
+                    if history.is_some() {
+                        batch.push::<0>(lane, &mut loads[pair.i() - first]);
+                        batch.push::<1>(lane, &mut loads[pair.j() - first]);
+                    }
+                } else {
+                    let export = &mut exports[slot - inside];
+                    *export = Load::default();
+                    if history.is_some() && pair.i() < pair.j() {
+                        batch.push::<0>(lane, &mut loads[pair.i() - first]);
+                        batch.push::<1>(lane, export);
+                    } else if history.is_some() {
+                        batch.push::<1>(lane, &mut loads[pair.j() - first]);
+                        batch.push::<0>(lane, export);
+                    }
+                }
+            }
+            done += slots.len();
+        }
+        self.singles::<false>(local, done, block, loads);
+    }
+
+    /// Contacts one by one, from an entry of the active ones on.
+    fn singles<const LEDGER: bool>(
+        &self,
+        local: Local,
+        from: usize,
+        block: &mut Block<M::History>,
+        loads: &mut [Load],
+    ) {
+        for at in from..block.active.len() {
+            let slot = block.active[at] as usize;
+            let pair = block.pairs.candidates[slot];
+            if let Some(action) = self.pair::<LEDGER>(local, pair, slot, &mut block.pairs, &mut block.flow) {
+                let on_i = Load { force: action.force, torque: action.torque_i };
+                let on_j = Load { force: -action.force, torque: action.torque_j };
+                deliver(slot, [on_i, on_j], block, loads);
+            } else {
+                withhold(slot, block);
+            }
+        }
+    }
+
+    /// Lists the slots whose particles are nearer than a `gap` [m], or whose contacts live.
+    fn select(&self, local: Local, pairs: &Slots<Pair, M::History>, gap: f64, active: &mut Vec<u32>) {
         active.resize(pairs.candidates.len(), 0);
         let mut count = 0;
         for ((pair, alive), slot) in pairs.candidates.iter().zip(&pairs.alive).zip(0u32..) {
-            let (one, other) = (&self.place[pair.i()], &self.place[pair.j()]);
+            let [one, other] = local.places(*pair);
             let squared = (one.position - other.position + self.shifts[pair.image()]).norm_squared();
-            let reach = one.radius + other.radius + self.reach;
+            let reach = one.radius + other.radius + gap;
             active[count] = slot;
             count += usize::from((squared < reach * reach * SLACK) | *alive);
         }
@@ -132,13 +263,13 @@ impl<M: ContactModel> View<'_, M> {
     #[inline(always)]
     fn pair<const LEDGER: bool>(
         &self,
+        local: Local,
         pair: Pair,
         slot: usize,
         slots: &mut Slots<Pair, M::History>,
         flow: &mut Flow,
     ) -> Option<Action> {
-        let (place_i, place_j) = (&self.place[pair.i()], &self.place[pair.j()]);
-        let (motion_i, motion_j) = (&self.motion[pair.i()], &self.motion[pair.j()]);
+        let ([place_i, place_j], [motion_i, motion_j]) = (local.places(pair), local.motions(pair));
         let branch = place_i.position - place_j.position + self.shifts[pair.image()];
         let squared = branch.norm_squared();
         let properties =
@@ -156,10 +287,10 @@ impl<M: ContactModel> View<'_, M> {
         self.evaluate::<LEDGER, _>(&contact, slot, slots, flow, &Vector::zeros())
     }
 
-    fn near<const LEDGER: bool>(&self, slot: usize, block: &mut Block<M::History>, loads: &mut [Load]) {
+    fn near<const LEDGER: bool>(&self, local: Local, slot: usize, block: &mut Block<M::History>, loads: &mut [Load]) {
         let near = block.near.candidates[slot];
-        let (particle, body) = (near.particle as usize, &self.bodies[near.body as usize]);
-        let (place, motion) = (&self.place[particle], &self.motion[particle]);
+        let (particle, body) = (near.particle as usize - local.first, &self.bodies[near.body as usize]);
+        let (place, motion) = (&local.place[particle], &local.motion[particle]);
         block.body_forces[slot] = Vector::zeros();
         let Some(mut geometry) = body.geometry(place.position, place.radius) else { return };
         match body.shape {
@@ -180,7 +311,7 @@ impl<M: ContactModel> View<'_, M> {
         let contact = contact(properties, geometry, masses, velocity, [motion.angular_velocity, Vector::zeros()]);
         let slots: &mut Slots<Near, M::History> = &mut block.near;
         if let Some(action) = self.evaluate::<LEDGER, _>(&contact, slot, slots, &mut block.flow, &body.velocity) {
-            push(&mut loads[particle - block.first], action.force, action.torque_i);
+            push(&mut loads[particle], &Load { force: action.force, torque: action.torque_i });
             block.body_forces[slot] = action.force;
         }
     }
@@ -211,14 +342,41 @@ impl<M: ContactModel> View<'_, M> {
     }
 }
 
+/// Adds what a contact does to its particles, or exports it.
 #[inline(always)]
-fn push(load: &mut Load, force: Vector, torque: Vector) {
-    load.force += force;
-    load.torque += torque;
+fn deliver<H>(slot: usize, [on_i, on_j]: [Load; 2], block: &mut Block<H>, loads: &mut [Load]) {
+    let pair = block.pairs.candidates[slot];
+    if slot < block.inside {
+        push(&mut loads[pair.i() - block.first], &on_i);
+        push(&mut loads[pair.j() - block.first], &on_j);
+    } else {
+        let export = &mut block.exports[slot - block.inside];
+        if pair.i() < pair.j() {
+            push(&mut loads[pair.i() - block.first], &on_i);
+            *export = on_j;
+        } else {
+            push(&mut loads[pair.j() - block.first], &on_j);
+            *export = on_i;
+        }
+    }
+}
+
+/// Takes back what a contact exported in an earlier step.
+#[inline(always)]
+fn withhold<H>(slot: usize, block: &mut Block<H>) {
+    if slot >= block.inside {
+        block.exports[slot - block.inside] = Load::default();
+    }
 }
 
 #[inline(always)]
-fn contact(
+fn push(load: &mut Load, more: &Load) {
+    load.force += more.force;
+    load.torque += more.torque;
+}
+
+#[inline(always)]
+pub(super) fn contact(
     pair: &PairProperties,
     geometry: ContactGeometry,
     masses: [f64; 2],

@@ -33,7 +33,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::laws::rotation::{Rotation, Turn};
+use crate::laws::rotation::{InPlane, Rotation, Turn};
 use crate::laws::slider::{Cap, History, Increment, Memory, Order, Rules, Step};
 use crate::laws::{Contact, MomentLaw, MomentState, NormalState, TangentialState};
 
@@ -182,7 +182,7 @@ impl MomentLaw for ElasticPlasticRolling {
         let quarter = self.rotation == Rotation::ProjectionRescaled && !self.torsion;
         let followed = if quarter { rate.cross(&direction) } else { rate };
         let step = Step { rate: followed, stiffness, dashpot, limit, dt };
-        let mut response = rules.advance(&step, history, |vector| self.rotation.carry(vector, &turn, negligible));
+        let mut response = rules.advance(&step, history, &InPlane { rotation: self.rotation, turn: &turn, negligible });
         if quarter {
             response.force = direction.cross(&response.force);
         }

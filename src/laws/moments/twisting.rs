@@ -20,7 +20,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::laws::rotation::{Rotation, Turn};
+use crate::laws::rotation::{AlongNormal, Rotation, Turn};
 use crate::laws::slider::{Cap, History, Increment, Memory, Order, Rules, Step};
 use crate::laws::{Contact, MomentLaw, MomentState, NormalState, TangentialState};
 
@@ -135,8 +135,7 @@ impl MomentLaw for Twisting {
             cap: self.cap,
         };
         let step = Step { rate, stiffness, dashpot, limit, dt };
-        let carry = |vector: &crate::Vector| self.rotation.carry_along_normal(vector, &turn);
-        MomentState::of(&rules.advance(&step, history, carry))
+        MomentState::of(&rules.advance(&step, history, &AlongNormal { rotation: self.rotation, turn: &turn }))
     }
 }
 

@@ -51,6 +51,7 @@ impl Hertz {
 impl NormalLaw for Hertz {
     type History = ();
     type Shared = ();
+    const BATCHED: bool = true;
 
     #[inline(always)]
     fn evaluate(&self, pair: &PairLaw, approach: &Approach, (): &(), (): &mut ()) -> NormalState {

@@ -27,22 +27,22 @@
 use crate::laws::slider::Memory;
 use crate::laws::{Contact, NormalState, PairLaw, TangentialLaw, TangentialState};
 
-use super::options::{Choices, Dashpot, Plain};
+use super::options::{Choices, CriticalShare, Dashpot, DashpotRule, Plain};
 
 /// The law; its values come with each pair.
 #[derive(Clone, Copy, Debug)]
-pub struct Mindlin<C> {
+pub struct Mindlin<C, D = Dashpot> {
     /// Where options come from.
     pub choices: C,
     /// Dashpot constant.
-    pub dashpot: Dashpot,
+    pub dashpot: D,
 }
 
-impl Mindlin<Plain> {
+impl Mindlin<Plain, CriticalShare> {
     /// The native law.
     #[must_use]
     pub const fn plain() -> Self {
-        Self { choices: Plain, dashpot: Dashpot::CriticalShare }
+        Self { choices: Plain, dashpot: CriticalShare }
     }
 }
 
@@ -60,13 +60,14 @@ impl Dashpot {
     }
 }
 
-impl<C: Choices> TangentialLaw for Mindlin<C> {
+impl<C: Choices, D: DashpotRule> TangentialLaw for Mindlin<C, D> {
     type History = Memory;
+    const BATCHED: bool = C::FIXED && D::FIXED;
 
     #[inline(always)]
     fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Memory) -> TangentialState {
         let stiffness = 8.0 * contact.pair.effective_shear * normal.contact_radius;
-        let dashpot = self.dashpot.constant(stiffness, &contact.pair, normal);
+        let dashpot = self.dashpot.rule().constant(stiffness, &contact.pair, normal);
         super::spring(contact, normal, &self.choices.options(), [stiffness, dashpot], dt, history)
     }
 }

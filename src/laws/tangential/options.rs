@@ -80,6 +80,37 @@ pub enum Dashpot {
     },
 }
 
+/// Where a law takes the rule of its dashpot from.
+pub trait DashpotRule: Copy + Send + Sync {
+    /// Whether the rule is known when compiled.
+    const FIXED: bool;
+
+    /// The rule.
+    fn rule(&self) -> Dashpot;
+}
+
+impl DashpotRule for Dashpot {
+    const FIXED: bool = false;
+
+    #[inline(always)]
+    fn rule(&self) -> Dashpot {
+        *self
+    }
+}
+
+/// [`Dashpot::CriticalShare`], fixed when compiled.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CriticalShare;
+
+impl DashpotRule for CriticalShare {
+    const FIXED: bool = true;
+
+    #[inline(always)]
+    fn rule(&self) -> Dashpot {
+        Dashpot::CriticalShare
+    }
+}
+
 /// All options of a tangential spring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -148,6 +179,9 @@ impl Options {
 
 /// Where a law takes its options from: a type that returns a constant is compiled for it.
 pub trait Choices: Copy + Send + Sync {
+    /// Whether the options are known when compiled.
+    const FIXED: bool = false;
+
     /// The options.
     fn options(&self) -> Options;
 }
@@ -164,6 +198,8 @@ impl Choices for Options {
 pub struct Plain;
 
 impl Choices for Plain {
+    const FIXED: bool = true;
+
     #[inline(always)]
     fn options(&self) -> Options {
         Options::plain()

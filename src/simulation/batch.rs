@@ -1,0 +1,158 @@
+//! A batch of contacts, evaluated several at a time.
+//!
+//! Rows have a fixed length and belong to one value on the stack: only so does the compiler know that no write of one lane
+//! is read by another, and vectorises the loop over lanes. Lanes do not depend on each other, nothing is fused or
+//! approximated: the bits are those of contacts evaluated one by one, for every width of vectors. Rows of four numbers are
+//! copied from and added to particles at once; the loop over lanes takes them apart.
+
+use crate::Vector;
+use crate::geometry;
+use crate::laws::model::ContactModel;
+use crate::material::PairProperties;
+use crate::particles::{Load, Motion, Place};
+
+use super::sweep::contact;
+
+/// Contacts of a batch.
+pub const LANES: usize = 64;
+/// Contacts below which a batch is not worth its empty lanes.
+pub const FEWEST: usize = 8;
+
+/// Four numbers that stand together in memory.
+pub type Row = [f64; 4];
+/// One row for each contact.
+type Rows = [Row; LANES];
+/// One number for each contact.
+type Column = [f64; LANES];
+
+/// What contacts know before they are evaluated, what they remember, and what they do.
+#[repr(align(64))]
+pub struct Batch<H> {
+    /// Branch vector (from j to i); the last entry is not used.
+    branch: Rows,
+    /// Velocity and the first component of the angular velocity, of i and j.
+    velocity: [Rows; 2],
+    /// The other components of the angular velocity, and the mass; the last entry is not used.
+    rest: [Rows; 2],
+    radius: [Column; 2],
+    young: Column,
+    shear: Column,
+    friction: Column,
+    damping: Column,
+    history: [H; LANES],
+    alive: [u64; LANES],
+    /// Force on i and j, and the first component of the torque.
+    force: [Rows; 2],
+    /// The other components of the torque on i, then on j.
+    torque: Rows,
+}
+
+/// The row of a vector that has no fourth entry.
+pub fn row(vector: &Vector) -> Row {
+    [vector.x, vector.y, vector.z, 0.0]
+}
+
+impl<H: Copy + Default> Batch<H> {
+    /// Lanes that no contact has filled.
+    #[inline(always)]
+    pub fn new() -> Self {
+        let (column, rows) = ([1.0; LANES], [[1.0; 4]; LANES]);
+        Self {
+            branch: rows,
+            velocity: [rows; 2],
+            rest: [rows; 2],
+            radius: [column; 2],
+            young: column,
+            shear: column,
+            friction: column,
+            damping: column,
+            history: [H::default(); LANES],
+            alive: [0; LANES],
+            force: [rows; 2],
+            torque: rows,
+        }
+    }
+
+    /// Fills a lane; `shift` is that of the image in which the pair meets [m].
+    #[inline(always)]
+    pub fn fill(&mut self, lane: usize, [one, other]: [&Place; 2], motions: [&Motion; 2], shift: &Row, history: &H) {
+        let place = |place: &Place| [place.position.x, place.position.y, place.position.z, place.radius];
+        let (near, far) = (place(one), place(other));
+        self.branch[lane] = [0, 1, 2, 3].map(|k| near[k] - far[k] + shift[k]);
+        self.radius[0][lane] = one.radius;
+        self.radius[1][lane] = other.radius;
+        for (end, motion) in motions.into_iter().enumerate() {
+            let (v, w) = (&motion.velocity, &motion.angular_velocity);
+            self.velocity[end][lane] = [v.x, v.y, v.z, w.x];
+            let rest = &mut self.rest[end][lane];
+            (rest[0], rest[1], rest[2]) = (w.y, w.z, motion.mass);
+        }
+        self.history[lane] = *history;
+    }
+
+    /// Gives a lane the values of its pair of materials.
+    #[inline(always)]
+    pub fn set_properties(&mut self, lane: usize, pair: &PairProperties) {
+        self.young[lane] = pair.effective_young;
+        self.shear[lane] = pair.effective_shear.unwrap_or_default();
+        self.friction[lane] = pair.friction.unwrap_or_default();
+        self.damping[lane] = pair.damping_ratio;
+    }
+
+    /// Evaluates all lanes, the empty ones too.
+    #[inline(always)]
+    pub fn evaluate<M: ContactModel<History = H>>(&mut self, model: M, shared: M::Shared, elapsed: f64) {
+        // Rows of another length need a place of their own.
+        let mut histories = self.history;
+        #[expect(clippy::needless_range_loop, reason = "one index for all columns, which the compiler vectorises")]
+        for lane in 0..LANES {
+            let [x, y, z, _] = self.branch[lane];
+            let branch = Vector::new(x, y, z);
+            let squared = branch.norm_squared();
+            let [(velocity_i, angular_i, mass_i), (velocity_j, angular_j, mass_j)] = [0, 1].map(|end| {
+                let ([vx, vy, vz, wx], [wy, wz, mass, _]) = (self.velocity[end][lane], self.rest[end][lane]);
+                (Vector::new(vx, vy, vz), Vector::new(wx, wy, wz), mass)
+            });
+            let pair = PairProperties {
+                effective_young: self.young[lane],
+                effective_shear: Some(self.shear[lane]),
+                damping_ratio: self.damping[lane],
+                friction: Some(self.friction[lane]),
+                ..PairProperties::default()
+            };
+            let contact = contact(
+                &pair,
+                geometry::spheres(branch, squared, self.radius[0][lane], self.radius[1][lane]),
+                [mass_i, mass_j],
+                velocity_i - velocity_j,
+                [angular_i, angular_j],
+            );
+            let history = &mut histories[lane];
+            self.alive[lane] = u64::from((squared > 0.0) & model.alive(contact.geometry.overlap, history));
+            let action = model.evaluate(&contact, &shared, elapsed, history);
+            let (force, on_i, on_j) = (action.force, action.torque_i, action.torque_j);
+            self.force[0][lane] = [force.x, force.y, force.z, on_i.x];
+            self.force[1][lane] = [-force.x, -force.y, -force.z, on_j.x];
+            self.torque[lane] = [on_i.y, on_i.z, on_j.y, on_j.z];
+        }
+        self.history = histories;
+    }
+
+    /// What the contact of a lane remembers, if it lives.
+    #[inline(always)]
+    pub fn history(&self, lane: usize) -> Option<&H> {
+        (self.alive[lane] != 0).then_some(&self.history[lane])
+    }
+
+    /// Adds what the contact of a lane does to i (`END` 0) or j (1).
+    #[inline(always)]
+    pub fn push<const END: usize>(&self, lane: usize, load: &mut Load) {
+        let ([x, y, z, first], torque) = (self.force[END][lane], self.torque[lane]);
+        load.force.x += x;
+        load.force.y += y;
+        load.force.z += z;
+        load.torque.x += first;
+        load.torque.y += torque[2 * END];
+        load.torque.z += torque[2 * END + 1];
+    }
+}
