@@ -49,11 +49,15 @@ class Point:
 
 @dataclass(frozen=True)
 class Variant:
-    """A point of the sweep; `scenes` are its refinements, coarsest first."""
+    """A point of the sweep; `scenes` are its refinements, coarsest first.
+
+    `full_only`: only the full form of a suite runs it.
+    """
 
     name: str
     points: tuple[Point, ...]
     scenes: tuple[Scene, ...]
+    full_only: bool = False
 
 
 @dataclass(frozen=True)
@@ -86,7 +90,12 @@ def load_case(path: Path, overrides: list[str] | None = None) -> Case:
     for item in raw["scenes"]:
         scenes.setdefault(item["variant"], []).append(from_json(item))
     variants = tuple(
-        Variant(item["name"], tuple(Point(**point) for point in item["points"]), tuple(scenes[item["name"]]))
+        Variant(
+            item["name"],
+            tuple(Point(**point) for point in item["points"]),
+            tuple(scenes[item["name"]]),
+            item["full_only"],
+        )
         for item in raw["variants"]
     )
     case = raw["case"]

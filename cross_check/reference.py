@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import importlib.util
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,8 @@ def closed_forms() -> dict[str, ClosedForm]:
         if spec is None or spec.loader is None:
             raise RecordError(f"{path}: not a module")
         module = importlib.util.module_from_spec(spec)
+        # Dataclasses look their module up by name.
+        sys.modules[spec.name] = module
         spec.loader.exec_module(module)
         for name, form in module.CLOSED_FORMS.items():
             forms[f"{path.stem}.{name}"] = form

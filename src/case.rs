@@ -105,7 +105,7 @@ impl Stated {
     pub fn load(self) -> Result<Loaded, Error> {
         let mut scenes = Vec::new();
         for variant in &self.variants {
-            for refinement in 0..=variant.case.time.refinements {
+            for refinement in variant.case.time.levels() {
                 let prepare = |variant: &sweep::Variant| scene::prepare(&variant.case, &variant.name, refinement);
                 match prepare(variant) {
                     Ok(scene) => scenes.push(scene),

@@ -6,67 +6,15 @@ A scalar is a number with a unit; a series has shape (T, N, 3) and belongs to th
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 import numpy as np
 
-from cross_check.record import Array, RunRecord
+from cross_check.compare import adhesion, oblique, rolling
+from cross_check.compare.quantity import Impact, Quantity, Undefined, impact
+from cross_check.record import DISSIPATED, Array, RunRecord
 from cross_check.scene import Scene
 
 
-class Undefined(Exception):
-    """The record does not define the quantity; the message says why."""
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A named observable with its unit; exactly one of `scalar` and `series` is given."""
-
-    name: str
-    unit: str
-    scalar: Callable[[Scene, RunRecord], float] | None = None
-    series: Callable[[Scene, RunRecord], Array] | None = None
-
-
-@dataclass(frozen=True)
-class Impact:
-    """The contact of the first particle with the second, or with the first body, at the sampled times.
-
-    `overlap` [m], `speed` [m/s] (positive when approaching) and `force` [N] (positive when it repels), shape (T,).
-    """
-
-    time: Array
-    overlap: Array
-    speed: Array
-    force: Array
-
-
-def impact(scene: Scene, record: RunRecord) -> Impact:
-    """Normal kinematics and force of the impact of a two-body scene. Raises Undefined for other scenes."""
-    if len(scene.particles) + len(scene.bodies) != 2:
-        raise Undefined("the scene is not an impact of two bodies")
-    position, velocity = record["position"], record.synchronized_velocity()
-    radius = scene.particles[0].radius
-    if len(scene.particles) == 2:
-        branch = position[:, 0] - position[:, 1]
-        distance = np.linalg.norm(branch, axis=1)
-        normal = branch / distance[:, None]
-        overlap = radius + scene.particles[1].radius - distance
-        relative = velocity[:, 0] - velocity[:, 1]
-    else:
-        body = scene.bodies[0]
-        wall = np.array(body.motion.velocity or (0.0, 0.0, 0.0))
-        point = np.array(body.shape.point) + wall * record["time"][:, None]
-        normal = np.broadcast_to(np.array(body.shape.normal), position[:, 0].shape)
-        overlap = radius - np.einsum("ij,ij->i", position[:, 0] - point, normal)
-        relative = velocity[:, 0] - wall
-    return Impact(
-        record["time"],
-        overlap,
-        -np.einsum("ij,ij->i", relative, normal),
-        np.einsum("ij,ij->i", record["force"][:, 0], normal),
-    )
+__all__ = ["QUANTITIES", "Impact", "Quantity", "Undefined", "impact"]
 
 
 def _touching(found: Impact) -> tuple[int, int]:
@@ -124,7 +72,7 @@ def energy_residual(scene: Scene, record: RunRecord) -> float:
     if "energy_kinetic" not in record.columns:
         raise Undefined("the record holds no energy ledger")
     stored = record["energy_kinetic"] + record["energy_elastic"] + record["energy_gravity"]
-    balance = stored + record["energy_viscous"] - record["energy_body_work"]
+    balance = sum((record[name] for name in DISSIPATED), stored) - record["energy_body_work"]
     entered = float(record["energy_entered"][-1])
     if entered == 0.0:
         raise Undefined("no energy entered a contact")
@@ -151,5 +99,8 @@ QUANTITIES = {
         Quantity("energy_residual", "-", scalar=energy_residual),
         Quantity("force_history", "N", series=force_history),
         Quantity("position_history", "m", series=position_history),
+        *oblique.QUANTITIES,
+        *rolling.QUANTITIES,
+        *adhesion.QUANTITIES,
     )
 }
