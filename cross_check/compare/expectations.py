@@ -66,14 +66,14 @@ def expect(comparisons: Iterable[Comparison], table: list[Rule], cases: set[str]
         index = next((i for i, rule in enumerate(table) if rule.matches(item)), None)
         if index is not None:
             covered[index] += 1
-            # What the quick form leaves out is expected to be left out; the full form runs it and the rule speaks.
-            left_out = item.verdict == FULL_ONLY
-            judged.append(replace(item, expected=FULL_ONLY if left_out else table[index].verdict))
+            judged.append(replace(item, expected=table[index].verdict))
         elif item.case.partition("/")[0] in governed:
             judged.append(replace(item, expected="(no rule in expected_verdicts.toml)"))
         else:
             known = kind(item.verdict) == "known-difference"
             judged.append(replace(item, expected=item.verdict if known else AGREE))
+    # What the quick form leaves out is expected to be left out; the full form runs it and the rule speaks.
+    judged = [replace(item, expected=FULL_ONLY) if item.verdict == FULL_ONLY else item for item in judged]
     if complete:
         judged += [
             _miscounted(rule, n)
