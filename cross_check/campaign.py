@@ -23,7 +23,7 @@ from cross_check.compare.differences import known
 from cross_check.compare.expectations import expect, rules
 from cross_check.compare.outcome import Outcome
 from cross_check.compare.verdicts import FULL_ONLY, Comparison
-from cross_check.curves import curves, sweeps
+from cross_check.curves import curves, drawn, sweeps
 from cross_check.engine import Case, CaseError, load_case
 from cross_check.record import RecordError, read
 from cross_check.report.campaign import Campaign, CaseInfo, SourceRun
@@ -92,7 +92,12 @@ def write(
                 for outcome in outcomes
                 if (deck := outcome.deck) is not None
             },
-            curves=[drawn for name, group in finished.results.items() for drawn in curves(name, group, finished.codes)],
+            curves=[
+                item
+                for case in finished.cases
+                for name in drawn(case, finished.results)
+                for item in curves(name, finished.results[name], finished.codes)
+            ],
             sweeps=[plot for case in finished.cases for plot in sweeps(case, finished.results, finished.codes)],
             environment=environment(),
             left_out=_left_out(finished),

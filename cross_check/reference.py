@@ -50,12 +50,13 @@ def slug(version: str) -> str:
 def thin(record: RunRecord, samples: int = 200) -> RunRecord:
     """The record as it is stored: about `samples` samples, and all those that quantities are interpolated from.
 
-    Kept are the neighbours of the largest force of every particle and of every beginning and end of a contact, so that
-    peaks, durations and rebounds are those of the full record.
+    Kept are the neighbours of the largest force of every particle, of the extremes of its components and of every
+    beginning and end of a contact, so that peaks, pulls, durations and rebounds are those of the full record.
     """
     force = np.linalg.norm(record["force"], axis=2)
     kept = set(range(0, len(record.step), max(1, len(record.step) // samples)))
     marks = [int(index) for index in np.argmax(force, axis=0)]
+    marks += [int(index) for extreme in (np.argmin, np.argmax) for index in extreme(record["force"], axis=0).flat]
     marks += [int(index) for index in np.flatnonzero(np.diff((force > 0.0).any(axis=1).astype(int)))]
     marks += [0, len(record.step) - 1]
     for mark in marks:

@@ -152,7 +152,11 @@ def impact_of(scene: Scene) -> Impact:
     sphere = scene.particles[0]
     if len(scene.particles) + len(scene.bodies) != 2 or any(scene.gravity):
         raise ValueError(f"{scene.name}: not an impact of two bodies without gravity")
-    if scene.model.normal.law != "hertz" or scene.model.tangential.law != "mindlin" or scene.model.moments.law != "free":
+    if (
+        scene.model.normal.law != "hertz"
+        or scene.model.tangential.law != "mindlin"
+        or scene.model.moments.law != "free"
+    ):
         raise ValueError(f"{scene.name}: the equations are those of hertz and mindlin")
     velocity, spins = np.array(sphere.velocity), [np.array(sphere.angular_velocity), np.zeros(3)]
     masses, radii = [4.0 / 3.0 * math.pi * sphere.radius**3 * _density(scene, 0)], [sphere.radius, math.inf]
