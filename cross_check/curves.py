@@ -13,7 +13,6 @@ from cross_check.engine import Case, Gate, Point
 from cross_check.report.campaign import Curve, CurveSet, SweepPlot
 from cross_check.runs import Results
 
-
 # Above this number of variants that ran, three of them stand for all.
 MOST_VARIANTS = 6
 

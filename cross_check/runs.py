@@ -27,8 +27,8 @@ Progress = Callable[[str, int], None]
 class Options:
     """How runs are made.
 
-    `full`: variants that the quick form leaves out run too. `live`: neither the cache nor recorded runs are used. `any_version`: codes of versions other than the proved ones
-    run too. `time_limit` [s] holds for each deck.
+    `full`: variants that the quick form leaves out run too. `live`: neither the cache nor recorded runs are used.
+    `any_version`: codes of versions other than the proved ones run too. `time_limit` [s] holds for each deck.
     """
 
     codes: tuple[str, ...] = tuple(ADAPTERS)

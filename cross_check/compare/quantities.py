@@ -13,7 +13,6 @@ from cross_check.compare.quantity import Impact, Quantity, Undefined, impact
 from cross_check.record import DISSIPATED, Array, RunRecord
 from cross_check.scene import Scene
 
-
 __all__ = ["QUANTITIES", "Impact", "Quantity", "Undefined", "impact"]
 
 

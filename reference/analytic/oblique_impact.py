@@ -22,10 +22,11 @@ import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
+from scipy import integrate
 
 from cross_check.scene import Material, Scene
 
@@ -120,7 +121,7 @@ class Impact:
         overlap, approach = float(state[0]), float(state[1])
         normal, slip, stiff, _, dashpot = self.forces(state)
         force = sign * self.friction * normal
-        held = state.copy()
+        held = np.array(state, dtype=np.float64)
         held[5] = force + dashpot * slip
         rates = self.rates(held, force)
         one, two = self.arms(overlap)
@@ -236,7 +237,7 @@ def _impact(impact: Impact, state: Array, unit: float) -> Array:
     sign = math.copysign(1.0, tested) if abs(tested) > impact.friction * impact.forces(state)[0] else 0.0
     time = 0.0
     for _ in range(STRETCHES):
-        found = solve_ivp(
+        found = cast(Any, integrate).solve_ivp(
             _rates(impact, sign),
             (time, time + 20.0 * unit),
             state,
@@ -246,7 +247,7 @@ def _impact(impact: Impact, state: Array, unit: float) -> Array:
             max_step=0.05 * unit,
             events=[_end(impact), _change(impact, sign)],
         )
-        state, time = found.y[:, -1].copy(), float(found.t[-1])
+        state, time = np.array(found.y[:, -1], dtype=np.float64), float(found.t[-1])
         if found.status != 1:
             raise ArithmeticError(f"the impact does not end: {found.message}")
         if sign:

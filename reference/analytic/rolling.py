@@ -1,6 +1,6 @@
 """A sphere on a horizontal plane under its weight: sliding into rolling, and rolling and twisting friction.
 
-With the arm a = R - d/2 at the overlap d of rest, 4/3 E* sqrt(R) d^(3/2) = m g, and the moment of inertia I = 2/5 m R^2:
+With the arm a = R - d/2 at the overlap d of rest, 4/3 E* sqrt(R) d^(3/2) = m g, and the inertia I = 2/5 m R^2:
 
 - launched with v0 and no spin, it slides with the force mu m g until t = v0 / (mu g (1 + m a^2 / I)) and rolls with
   v0 / (1 + I / (m a^2)), which is 5/7 v0 and 2 v0 / (7 mu g) for a = R;
