@@ -47,7 +47,7 @@ def slug(version: str) -> str:
     return "".join(c if c.isalnum() or c in ".-" else "-" for c in version)
 
 
-def thin(record: RunRecord, samples: int = 200) -> RunRecord:
+def thin(record: RunRecord, samples: int = 100) -> RunRecord:
     """The record as it is stored: about `samples` samples, and all those that quantities are interpolated from.
 
     Kept are the neighbours of the largest force of every particle, of the extremes of its components and of every

@@ -31,7 +31,11 @@ def rolling_velocity(scene: Scene, record: RunRecord) -> float:
 
 
 def sliding_time(scene: Scene, record: RunRecord) -> float:
-    """Time at which the slip along the launch first vanishes, on the line between two samples [s]."""
+    """Time at which the slip along the launch vanishes [s].
+
+    It lies on the line through the samples at which the slip has first fallen to a half and to a tenth: the last of the
+    slip is held by spring and dashpot.
+    """
     _on_plane(scene)
     normal = np.array(scene.bodies[0].shape.normal)
     velocity = record.synchronized_velocity()[:, 0]
@@ -39,13 +43,12 @@ def sliding_time(scene: Scene, record: RunRecord) -> float:
     arm = scene.particles[0].radius - 0.5 * np.maximum(overlap, 0.0)
     slip = velocity - np.cross(_spin(scene, record), normal) * arm[:, None]
     along = slip @ (velocity[0] / np.linalg.norm(velocity[0]))
-    ended = np.flatnonzero(along <= 0.0)
-    if len(ended) == 0 or ended[0] == 0:
+    half, tenth = (np.flatnonzero(along <= share * along[0]) for share in (0.5, 0.1))
+    if len(tenth) == 0 or half[0] == 0 or along[half[0]] <= along[tenth[0]]:
         raise Undefined("the sphere does not stop sliding")
-    last = int(ended[0])
-    share = along[last - 1] / (along[last - 1] - along[last])
-    time = record["time"]
-    return float(time[last - 1] + share * (time[last] - time[last - 1]))
+    first, last, time = int(half[0]), int(tenth[0]), record["time"]
+    share = along[last] / (along[first] - along[last])
+    return float(time[last] + share * (time[last] - time[first]))
 
 
 def _steady_rate(record: RunRecord, values: Array) -> float:
