@@ -199,11 +199,7 @@ impl Checker<'_> {
             let fine = matches!(gate.check, Check::Finest | Check::Extrapolated);
             match (fine || gate.check == Check::Reference, &gate.reference) {
                 (true, None) => {
-                    self.add(
-                        key("reference"),
-                        "nothing",
-                        "this check names a closed form of reference/analytic",
-                    );
+                    self.add(key("reference"), "nothing", "this check names a closed form of reference/analytic");
                 }
                 (false, Some(name)) => {
                     self.add(
