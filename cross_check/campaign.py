@@ -22,8 +22,8 @@ from cross_check.compare.checks import compare
 from cross_check.compare.differences import known
 from cross_check.compare.expectations import expect, rules
 from cross_check.compare.outcome import Outcome
-from cross_check.compare.verdicts import Comparison
-from cross_check.curves import curves, sweeps
+from cross_check.compare.verdicts import FULL_ONLY, Comparison
+from cross_check.curves import curves, drawn, sweeps
 from cross_check.engine import Case, CaseError, load_case
 from cross_check.record import RecordError, read
 from cross_check.report.campaign import Campaign, CaseInfo, SourceRun
@@ -82,21 +82,41 @@ def write(
             duration=finished.duration,
             comparisons=verdicts,
             cases=[_info(case) for case in finished.cases],
-            runs=[_provenance(outcome) for outcome in outcomes if outcome.scene.refinement == 0],
+            runs=[
+                _provenance(outcome)
+                for outcome in outcomes
+                if outcome.scene.refinement == 0 and outcome.verdict != FULL_ONLY
+            ],
             translations={
                 f"{outcome.scene.name}|{outcome.source}": (deck.files[deck.main], deck.translation)
                 for outcome in outcomes
                 if (deck := outcome.deck) is not None
             },
-            curves=[drawn for name, group in finished.results.items() for drawn in curves(name, group, finished.codes)],
+            curves=[
+                item
+                for case in finished.cases
+                for name in drawn(case, finished.results)
+                for item in curves(name, finished.results[name], finished.codes)
+            ],
             sweeps=[plot for case in finished.cases for plot in sweeps(case, finished.results, finished.codes)],
             environment=environment(),
-            left_out=[],
+            left_out=_left_out(finished),
             known_differences={name: str(entry["explanation"]).strip() for name, entry in known().items()},
         ),
         pdf,
     )
     return page, verdicts
+
+
+def _left_out(finished: Finished) -> list[str]:
+    """What the quick form leaves to the full one, case by case."""
+    lines: list[str] = []
+    for case in finished.cases:
+        names = [variant.scenes[0].name for variant in case.variants]
+        count = sum(any(item.verdict == FULL_ONLY for item in finished.results[name].values()) for name in names)
+        if count:
+            lines.append(f"{case.name}: {count} of {len(names)} variants, which run with --full")
+    return lines
 
 
 def _info(case: Case) -> CaseInfo:

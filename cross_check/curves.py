@@ -13,6 +13,9 @@ from cross_check.engine import Case, Gate, Variant
 from cross_check.report.campaign import Curve, CurveSet, SweepPlot
 from cross_check.runs import Results
 
+# Above this number of variants that ran, three of them stand for all.
+MOST_VARIANTS = 6
+
 
 def curves(name: str, outcomes: Outcomes, codes: tuple[str, ...]) -> Iterator[CurveSet]:
     """Force over time and over overlap of an impact, with each code's distance from its mirror."""
@@ -73,10 +76,26 @@ def _residual(code: str, found: dict[str, tuple[Outcome, Impact]], axis: str) ->
     return Curve(label, x[inside], y[inside], recorded=outcome.origin == "recorded")
 
 
+def drawn(case: Case, results: Results) -> list[str]:
+    """The scenes of a case whose curves are drawn: all that ran, or the first, middle and last of many."""
+    names = [variant.scenes[0].name for variant in case.variants]
+    ran = [name for name in names if any(outcome.record is not None for outcome in results[name].values())]
+    return ran if len(ran) <= MOST_VARIANTS else [ran[0], ran[len(ran) // 2], ran[-1]]
+
+
 def sweeps(case: Case, results: Results, codes: tuple[str, ...]) -> Iterator[SweepPlot]:
-    """For every scalar with a closed form: value and distance from it over each axis that has positions."""
+    """For every scalar with a closed form: value and distance from it over each axis that has positions.
+
+    What conservation makes zero has no curve.
+    """
     axes = {point.axis for variant in case.variants for point in variant.points if point.at is not None}
-    gates = [gate for gate in case.gates if gate.check == "reference" and QUANTITIES[gate.quantity].scalar]
+    gates = [
+        gate
+        for gate in case.gates
+        if gate.check in ("reference", "finest", "extrapolated")
+        and gate.reference != "conservation.zero"
+        and QUANTITIES[gate.quantity].scalar
+    ]
     for axis in sorted(axes):
         others = {_others(variant, axis) for variant in case.variants}
         for gate in gates:
@@ -102,10 +121,13 @@ def _sweep(case: Case, gate: Gate, axis: str, other: str, results: Results, code
         at = next((point.at for point in variant.points if point.axis == axis), None)
         if at is None or _others(variant, axis) != other:
             continue
+        outcomes = results[variant.scenes[0].name]
+        if all(outcome.record is None for outcome in outcomes.values()):
+            continue
         target = float(form(variant.scenes[0]))
         targets.append((at, target))
         for source in (NATIVE, *codes):
-            outcome = results[variant.scenes[0].name].get((source, 0))
+            outcome = outcomes.get((source, 0))
             if outcome is None or outcome.record is None:
                 continue
             try:
@@ -119,8 +141,8 @@ def _sweep(case: Case, gate: Gate, axis: str, other: str, results: Results, code
     line = np.array(targets)
     return SweepPlot(
         case=case.name,
-        title=f"{gate.quantity.replace('_', ' ')} over {axis}" + (f", {other}" if other else ""),
-        x_label=f"{axis} [-]",
+        title=f"{gate.quantity.replace('_', ' ')} over {axis.partition(' [')[0]}" + (f", {other}" if other else ""),
+        x_label=axis if axis.endswith("]") else f"{axis} [-]",
         y_label=f"{gate.quantity.replace('_', ' ')} [{QUANTITIES[gate.quantity].unit}]",
         points=[Curve("reference", line[:, 0], line[:, 1])]
         + [Curve(source, rows[:, 0], rows[:, 1]) for source, rows in table.items()],

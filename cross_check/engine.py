@@ -49,11 +49,15 @@ class Point:
 
 @dataclass(frozen=True)
 class Variant:
-    """A point of the sweep, and one seed of its ensemble; `scenes` are its refinements, coarsest first."""
+    """A point of the sweep, and one seed of its ensemble; `scenes` are its refinements, coarsest first.
+
+    `full_only`: only the full form of a suite runs it.
+    """
 
     name: str
     points: tuple[Point, ...]
     scenes: tuple[Scene, ...]
+    full_only: bool = False
 
     @property
     def member(self) -> str:
@@ -91,7 +95,7 @@ def load_case(path: Path, overrides: list[str] | None = None) -> Case:
     for item in raw["scenes"]:
         members.setdefault(item["variant"], {}).setdefault(item["seed"], []).append(from_json(item))
     variants = tuple(
-        Variant(item["name"], tuple(Point(**point) for point in item["points"]), tuple(scenes))
+        Variant(item["name"], tuple(Point(**point) for point in item["points"]), tuple(scenes), item["full_only"])
         for item in raw["variants"]
         for scenes in members[item["name"]].values()
     )

@@ -27,9 +27,14 @@ UNITS = {
     "energy_elastic": "J",
     "energy_gravity": "J",
     "energy_viscous": "J",
+    "energy_frictional": "J",
+    "energy_rolling": "J",
+    "energy_plastic": "J",
+    "energy_carried": "J",
     "energy_body_work": "J",
     "energy_entered": "J",
 }
+DISSIPATED = ("energy_viscous", "energy_frictional", "energy_rolling", "energy_plastic", "energy_carried")
 REQUIRED = ("step", "time", "position", "velocity", "angular_velocity", "force", "torque")
 
 
@@ -98,6 +103,13 @@ class RunRecord:
         mass = np.asarray(self.header.mass)[None, :, None]
         acceleration = self.columns["force"] / mass + np.asarray(self.header.gravity)
         return velocity - 0.5 * self.header.time_step * acceleration
+
+    def synchronized_spin(self, moment_of_inertia: Array) -> Array:
+        """Angular velocities at the times of the positions, shape (T, N, 3) [rad/s], of spheres of given inertia."""
+        spin = self.columns["angular_velocity"]
+        if self.header.velocity_time == "synchronized":
+            return spin
+        return spin - 0.5 * self.header.time_step * self.columns["torque"] / moment_of_inertia[None, :, None]
 
     def check(self, where: str) -> None:
         """Raises RecordError unless the record is complete, finite and of one shape."""

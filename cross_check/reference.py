@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import importlib.util
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,8 @@ def closed_forms() -> dict[str, ClosedForm]:
         if spec is None or spec.loader is None:
             raise RecordError(f"{path}: not a module")
         module = importlib.util.module_from_spec(spec)
+        # Dataclasses look their module up by name.
+        sys.modules[spec.name] = module
         spec.loader.exec_module(module)
         for name, form in module.CLOSED_FORMS.items():
             forms[f"{path.stem}.{name}"] = form
@@ -44,15 +47,16 @@ def slug(version: str) -> str:
     return "".join(c if c.isalnum() or c in ".-" else "-" for c in version)
 
 
-def thin(record: RunRecord, samples: int = 200) -> RunRecord:
+def thin(record: RunRecord, samples: int = 100) -> RunRecord:
     """The record as it is stored: about `samples` samples, and all those that quantities are interpolated from.
 
-    Kept are the neighbours of the largest force of every particle and of every beginning and end of a contact, so that
-    peaks, durations and rebounds are those of the full record.
+    Kept are the neighbours of the largest force of every particle, of the extremes of its components and of every
+    beginning and end of a contact, so that peaks, pulls, durations and rebounds are those of the full record.
     """
     force = np.linalg.norm(record["force"], axis=2)
     kept = set(range(0, len(record.step), max(1, len(record.step) // samples)))
     marks = [int(index) for index in np.argmax(force, axis=0)]
+    marks += [int(index) for extreme in (np.argmin, np.argmax) for index in extreme(record["force"], axis=0).flat]
     marks += [int(index) for index in np.flatnonzero(np.diff((force > 0.0).any(axis=1).astype(int)))]
     marks += [0, len(record.step) - 1]
     for mark in marks:

@@ -14,7 +14,7 @@ from cross_check.adapters import ADAPTERS
 from cross_check.adapters.interface import Adapter, Deck, InvalidScene, NotComparable, RunFailed
 from cross_check.cache import Cache, code_key, native_key
 from cross_check.compare.outcome import NATIVE, Outcome, Outcomes, mirror_name
-from cross_check.compare.verdicts import not_comparable, not_run
+from cross_check.compare.verdicts import FULL_ONLY, not_comparable, not_run
 from cross_check.engine import Case, CaseError, Variant
 from cross_check.record import Code, RecordError, RunRecord, read
 from cross_check.scene import Scene
@@ -27,12 +27,13 @@ Progress = Callable[[str, int], None]
 class Options:
     """How runs are made.
 
-    `live`: neither the cache nor recorded runs are used. `any_version`: codes of versions other than the proved ones
-    run too. `time_limit` [s] holds for each deck.
+    `full`: variants that the quick form leaves out run too. `live`: neither the cache nor recorded runs are used.
+    `any_version`: codes of versions other than the proved ones run too. `time_limit` [s] holds for each deck.
     """
 
     codes: tuple[str, ...] = tuple(ADAPTERS)
     live: bool = False
+    full: bool = False
     any_version: bool = False
     jobs: int = field(default_factory=lambda: os.cpu_count() or 1)
     time_limit: float = 300.0
@@ -52,9 +53,10 @@ Results = dict[str, Outcomes]
 
 def count(cases: list[Case], options: Options) -> int:
     """Number of runs that `execute` will report."""
-    sources = 1 + len(options.codes)
-    counts = (len(refined(case, variant)) for case in cases for variant in case.variants)
-    return sum(scenes * sources + len(options.codes) for scenes in counts)
+    chosen = [(case, variant) for case in cases for variant in case.variants if options.full or not variant.full_only]
+    native = sum(len(refined(case, variant)) for case, variant in chosen)
+    mirrors = sum(len(mirrored(case, variant)) + 1 for case, variant in chosen)
+    return native + mirrors * len(options.codes)
 
 
 def execute(cases: list[Case], options: Options, cache: Cache, work: Path, progress: Progress) -> Results:
@@ -66,10 +68,12 @@ def execute(cases: list[Case], options: Options, cache: Cache, work: Path, progr
         for variant in case.variants:
             name = variant.scenes[0].name
             results[name] = {}
-            scenes = refined(case, variant)
-            native += [_Job(name, NATIVE, scene) for scene in scenes]
+            if variant.full_only and not options.full:
+                results[name] = _left_out(variant.scenes[0], options.codes)
+                continue
+            native += [_Job(name, NATIVE, scene) for scene in refined(case, variant)]
             for code in options.codes:
-                _plan(ADAPTERS[code], scenes, results[name], native, external[code], progress)
+                _plan(ADAPTERS[code], mirrored(case, variant), results[name], native, external[code], progress)
     with ThreadPoolExecutor(options.jobs) as pool:
 
         def run(job: _Job) -> Outcome:
@@ -86,8 +90,20 @@ def execute(cases: list[Case], options: Options, cache: Cache, work: Path, progr
 
 def refined(case: Case, variant: Variant) -> tuple[Scene, ...]:
     """The scenes of a variant that a gate looks at: refinements serve closed forms and convergence only."""
-    wanted = any(gate.check in ("reference", "convergence") for gate in case.gates)
+    wanted = any(gate.check in ("reference", "convergence", "finest", "extrapolated") for gate in case.gates)
     return variant.scenes if wanted else variant.scenes[:1]
+
+
+def mirrored(case: Case, variant: Variant) -> tuple[Scene, ...]:
+    """The scenes that mirrors run: half the step serves the uncertainty of a code beside a closed form."""
+    wanted = any(gate.check == "reference" for gate in case.gates)
+    return tuple(scene for scene in variant.scenes if scene.refinement <= (1 if wanted else 0))
+
+
+def _left_out(scene: Scene, codes: tuple[str, ...]) -> Outcomes:
+    """The outcomes of a variant that only the full form runs."""
+    sources = (NATIVE, *codes, *(mirror_name(code) for code in codes))
+    return {(source, 0): Outcome(source, scene, None, FULL_ONLY, "not run") for source in sources}
 
 
 def _plan(

@@ -106,7 +106,7 @@ impl Stated {
         let mut scenes = Vec::new();
         for variant in &self.variants {
             for seed in variant.seeds() {
-                for refinement in 0..=variant.case.time.refinements {
+                for refinement in variant.case.time.levels() {
                     let prepare =
                         |variant: &sweep::Variant| scene::prepare(&variant.case, &variant.name, seed, refinement);
                     match prepare(variant) {

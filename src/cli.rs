@@ -12,7 +12,7 @@ use crate::bench;
 use crate::case::scene::Scene;
 use crate::case::{self, Loaded};
 use crate::error::Error;
-use crate::record::Recorder;
+use crate::record::{DISSIPATED, Recorder};
 use crate::simulation::{self, Options};
 
 mod job;
@@ -220,8 +220,8 @@ pub(crate) fn summary(scene: &Scene, recorder: &Recorder) -> serde_json::Value {
     let largest = |name| recorder.values(name).iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
     let balance = |sample: usize| {
         let column = |name| recorder.values(name).get(sample).copied().unwrap_or_default();
-        column("energy_kinetic") + column("energy_elastic") + column("energy_gravity") + column("energy_viscous")
-            - column("energy_body_work")
+        let held = column("energy_kinetic") + column("energy_elastic") + column("energy_gravity");
+        DISSIPATED.iter().fold(held, |sum, name| sum + column(name)) - column("energy_body_work")
     };
     let samples = recorder.values("time").len();
     let largest_residual = (0..samples).map(|sample| (balance(sample) - balance(0)).abs()).fold(0.0, f64::max);
@@ -237,6 +237,10 @@ pub(crate) fn summary(scene: &Scene, recorder: &Recorder) -> serde_json::Value {
             "kinetic_energy": value(last("energy_kinetic"), "J"),
             "elastic_energy": value(last("energy_elastic"), "J"),
             "viscous_dissipation": value(last("energy_viscous"), "J"),
+            "frictional_dissipation": value(last("energy_frictional"), "J"),
+            "rolling_dissipation": value(last("energy_rolling"), "J"),
+            "plastic_dissipation": value(last("energy_plastic"), "J"),
+            "carried_dissipation": value(last("energy_carried"), "J"),
             "energy_residual": json!({"value": residual, "unit": "-"}),
         },
     })

@@ -25,6 +25,10 @@ use checkpoint::Checkpoint;
 /// The version of the record format.
 pub const SCHEMA: u32 = 1;
 
+/// Columns of the ledger that hold dissipated energies.
+pub const DISSIPATED: [&str; 5] =
+    ["energy_viscous", "energy_frictional", "energy_rolling", "energy_plastic", "energy_carried"];
+
 /// One column of a record: unit, shape of one sample, values.
 struct Column {
     name: &'static str,
@@ -57,14 +61,9 @@ impl Recorder {
             column("torque", "N m", &[particles, 3]),
             column("body_force", "N", &[bodies, 3]),
         ];
-        let energies = [
-            "energy_kinetic",
-            "energy_elastic",
-            "energy_gravity",
-            "energy_viscous",
-            "energy_body_work",
-            "energy_entered",
-        ];
+        let stored = ["energy_kinetic", "energy_elastic", "energy_gravity"];
+        let received = ["energy_body_work", "energy_entered"];
+        let energies = stored.into_iter().chain(DISSIPATED).chain(received);
         columns.extend(energies.map(|name| column(name, "J", &[])));
         let mut header = header(scene);
         header["columns"]["step"] = json!("-");
@@ -91,6 +90,10 @@ impl Recorder {
             vec![ledger.elastic],
             vec![ledger.gravity],
             vec![ledger.viscous],
+            vec![ledger.frictional],
+            vec![ledger.rolling],
+            vec![ledger.plastic],
+            vec![ledger.carried],
             vec![ledger.body_work],
             vec![ledger.entered],
         ];

@@ -156,6 +156,24 @@ def touching(scene: Scene) -> list[Pair]:
     return result
 
 
+def head_on(scene: Scene) -> bool:
+    """Whether nothing can slip: one or two bodies that approach along their normal, without spin and weight."""
+    if len(scene.particles) + len(scene.bodies) != 2 or any(scene.gravity):
+        return False
+    if any(any(particle.angular_velocity) for particle in scene.particles):
+        return False
+    first = scene.particles[0]
+    if scene.bodies:
+        normal, other = scene.bodies[0].shape.normal, scene.bodies[0].motion.velocity or (0.0, 0.0, 0.0)
+    else:
+        second = scene.particles[1]
+        x, y, z = (a - b for a, b in zip(first.position, second.position, strict=True))
+        normal, other = (x, y, z), second.velocity
+    u, v, w = (a - b for a, b in zip(first.velocity, other, strict=True))
+    x, y, z = normal
+    return y * w == z * v and z * u == x * w and x * v == y * u
+
+
 def pair_key(scene: Scene, pair: Pair) -> str:
     """`pairs.A+B`, the name of a pair in translations and messages."""
     return "pairs." + "+".join(scene.materials[index].name for index in pair.between)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -283,10 +283,46 @@ def _convergence(bench: Bench) -> Iterator[Comparison]:
     yield bench.comparison(*sides, coarse, verdict, f"order {order:.4f}, allowed {low} to {high}")
 
 
+def _finest(bench: Bench) -> Iterator[Comparison]:
+    """Native at its finest step; the note tells the errors of all steps and the order over the last halving."""
+    yield _refined(bench, extrapolate=False)
+
+
+def _extrapolated(bench: Bench) -> Iterator[Comparison]:
+    """Native extrapolated to a vanishing step at first order (Richardson), which the quantity and the note say."""
+    found = _refined(bench, extrapolate=True)
+    yield replace(found, quantity=f"{found.quantity}, extrapolated")
+
+
+def _refined(bench: Bench, extrapolate: bool) -> Comparison:
+    form, name = _closed_form(bench), f"closed form {bench.gate.reference}"
+    levels = sorted(level for source, level in bench.outcomes if source == NATIVE)
+    try:
+        values = [float(bench.value(NATIVE, level)) for level in levels]
+    except Undefined as why:
+        return bench.undecided(NATIVE, REFERENCE, str(why), name)
+    target = float(form(bench.scene))
+    errors = [_scaled(abs(value - target), bench.gate.scale, target) for value in values]
+    order = math.log2(errors[-2] / errors[-1]) if min(errors[-2:]) > 0.0 else math.nan
+    listed = ", ".join(f"{error:.2e} at step/{2**level}" for level, error in zip(levels, errors, strict=True))
+    note = f"{name}; off by {listed}; order {order:.2f}"
+    before, last = values[-2:]
+    if extrapolate:
+        before, last = 2.0 * values[-2] - values[-3], 2.0 * values[-1] - values[-2]
+        note += "; judged is the value extrapolated from the last two"
+    doubt = 2.0 * abs(last - before)
+    discrepancy = _scaled(abs(last - target), bench.gate.scale, target)
+    verdict = _judge(bench, discrepancy, _scaled(doubt, bench.gate.scale, target))
+    left, right = Side(NATIVE, last, doubt, "time step"), Side(REFERENCE, target, 0.0, "closed form")
+    return bench.comparison(left, right, discrepancy, verdict, note)
+
+
 CHECKS: dict[str, Callable[[Bench], Iterator[Comparison]]] = {
     "reference": _against_reference,
     "mirror": _mirrors,
     "plain": _plain,
     "prediction": _predictions,
     "convergence": _convergence,
+    "finest": _finest,
+    "extrapolated": _extrapolated,
 }

@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 from cross_check import PACKAGE, toml_file
-from cross_check.compare.verdicts import AGREE, DIFFER, Comparison, Side, kind, not_run
+from cross_check.compare.verdicts import AGREE, DIFFER, FULL_ONLY, Comparison, Side, kind, not_run
 
 
 class ExpectationError(Exception):
@@ -72,6 +72,8 @@ def expect(comparisons: Iterable[Comparison], table: list[Rule], cases: set[str]
         else:
             known = kind(item.verdict) == "known-difference"
             judged.append(replace(item, expected=item.verdict if known else AGREE))
+    # What the quick form leaves out is expected to be left out; the full form runs it and the rule speaks.
+    judged = [replace(item, expected=FULL_ONLY) if item.verdict == FULL_ONLY else item for item in judged]
     if complete:
         judged += [
             _miscounted(rule, n)

@@ -11,11 +11,6 @@ from cross_check.record import Array, RunRecord
 from cross_check.scene import Scene
 
 
-def torque_history(_: Scene, record: RunRecord) -> Array:
-    """Contact torque on every particle, shape (T, N, 3) [N m]."""
-    return record["torque"]
-
-
 def _turned(scene: Scene, record: RunRecord) -> tuple[Array, Array]:
     """Tangential force on the first particle before and after the last stage, in the frame that turns with it [N]."""
     if len(scene.particles) != 2 or len(scene.drives) != 2:
@@ -64,7 +59,6 @@ def tangential_body_change(scene: Scene, record: RunRecord) -> float:
 
 
 QUANTITIES = (
-    Quantity("torque_history", "N m", series=torque_history),
     Quantity("tangential_length_change", "-", scalar=tangential_length_change, of_law=True),
     Quantity("tangential_body_change", "-", scalar=tangential_body_change, of_law=True),
 )

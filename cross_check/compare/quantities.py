@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cross_check.compare import path_quantities
+from cross_check.compare import adhesion, oblique, path_quantities, rolling
 from cross_check.compare.quantity import Impact, Quantity, Undefined, impact
-from cross_check.record import Array, RunRecord
+from cross_check.record import DISSIPATED, Array, RunRecord
 from cross_check.scene import Scene
 
 __all__ = ["QUANTITIES", "Impact", "Quantity", "Undefined", "impact"]
@@ -71,7 +71,7 @@ def energy_residual(scene: Scene, record: RunRecord) -> float:
     if "energy_kinetic" not in record.columns:
         raise Undefined("the record holds no energy ledger")
     stored = record["energy_kinetic"] + record["energy_elastic"] + record["energy_gravity"]
-    balance = stored + record["energy_viscous"] - record["energy_body_work"]
+    balance = sum((record[name] for name in DISSIPATED), stored) - record["energy_body_work"]
     entered = float(record["energy_entered"][-1])
     if entered == 0.0:
         raise Undefined("no energy entered a contact")
@@ -99,5 +99,8 @@ QUANTITIES = {
         Quantity("force_history", "N", series=force_history),
         Quantity("position_history", "m", series=position_history),
         *path_quantities.QUANTITIES,
+        *oblique.QUANTITIES,
+        *rolling.QUANTITIES,
+        *adhesion.QUANTITIES,
     )
 }

@@ -26,6 +26,10 @@ def not_run(reason: str) -> str:
     return f"not-run({reason})"
 
 
+# The verdict for what the quick form of a suite leaves to the full one.
+FULL_ONLY = not_run("full only")
+
+
 def kind(verdict: str) -> str:
     """The verdict without its reason: one of KINDS."""
     return verdict.partition("(")[0]

@@ -15,6 +15,8 @@ use crate::error::Problem;
 const VARIANTS: usize = 10_000;
 /// Most steps between two samples.
 const EVERY: u64 = 1_000_000_000;
+/// Deepest refinement: a step divided by 4096.
+const FINEST: u32 = 12;
 
 /// Checks what must hold before sweeps are applied.
 pub fn sweeps(case: &Case) -> Vec<Problem> {
@@ -175,6 +177,11 @@ impl Checker<'_> {
         if self.case.time.refinements > 6 {
             self.add("time.refinements", self.case.time.refinements, "at most 6 refinements");
         }
+        if let Some(finest) = self.case.time.finest
+            && !(self.case.time.refinements + 3..=FINEST).contains(&finest)
+        {
+            self.add("time.finest", finest, format!("above time.refinements + 2, and at most {FINEST}"));
+        }
         self.every("output.every", self.case.output.every);
     }
 
@@ -189,16 +196,17 @@ impl Checker<'_> {
         for (i, gate) in case.gates.iter().enumerate() {
             let key = |name: &str| format!("gates.{i}.{name}");
             self.number(key("bound"), gate.bound, |value| value > 0.0, "must be positive");
-            match (gate.check == Check::Reference, &gate.reference) {
+            let fine = matches!(gate.check, Check::Finest | Check::Extrapolated);
+            match (fine || gate.check == Check::Reference, &gate.reference) {
                 (true, None) => {
-                    self.add(
-                        key("reference"),
-                        "nothing",
-                        "check = \"reference\" names a closed form of reference/analytic",
-                    );
+                    self.add(key("reference"), "nothing", "this check names a closed form of reference/analytic");
                 }
                 (false, Some(name)) => {
-                    self.add(key("reference"), name, "only check = \"reference\" names a closed form");
+                    self.add(
+                        key("reference"),
+                        name,
+                        "only the checks reference, finest and extrapolated name a closed form",
+                    );
                 }
                 _ => {}
             }
@@ -217,6 +225,9 @@ impl Checker<'_> {
             }
             if gate.check == Check::Convergence && case.time.refinements == 0 {
                 self.add("time.refinements", 0, "a gate with check = \"convergence\" needs at least 1 refinement");
+            }
+            if fine && case.time.finest.is_none() {
+                self.add("time.finest", "nothing", "gates with the checks finest and extrapolated need it");
             }
             if gate.check == Check::Equivalence && case.ensemble.is_none() {
                 self.add(key("check"), "equivalence", "means of an ensemble are compared: the case states [ensemble]");

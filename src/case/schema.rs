@@ -225,6 +225,16 @@ pub struct TimeStepping {
     /// Number of times the native engine repeats the run with half the step, to know its time-step error.
     #[serde(default)]
     pub refinements: u32,
+    /// A deep refinement k, above `refinements` + 2: the native engine also runs with the step divided by 2^(k - 2),
+    /// 2^(k - 1) and 2^k, for gates with `check = "finest"` and `check = "extrapolated"`. Codes and mirrors do not.
+    pub finest: Option<u32>,
+}
+
+impl TimeStepping {
+    /// The refinements that are run, coarsest first.
+    pub fn levels(&self) -> impl Iterator<Item = u32> {
+        (0..=self.refinements).chain(self.finest.iter().flat_map(|finest| finest.saturating_sub(2)..=*finest))
+    }
 }
 
 /// Choice of the time step.
@@ -256,7 +266,7 @@ pub struct Gate {
     pub quantity: String,
     /// What is compared with what.
     pub check: Check,
-    /// Name of the closed form in `reference/analytic`, for `check = "reference"`.
+    /// Name of the closed form in `reference/analytic`, for the checks `reference`, `finest` and `extrapolated`.
     pub reference: Option<String>,
     /// How the difference is made a number.
     pub scale: Scale,
@@ -276,6 +286,10 @@ pub enum Check {
     Reference,
     /// Each code against the mirror that claims to know what it does.
     Mirror,
+    /// Native at its finest time step against a closed form or an integration to high accuracy.
+    Finest,
+    /// Native extrapolated to a vanishing step from its finest steps, at first order, against the same.
+    Extrapolated,
     /// Plain native against each code; a difference is a known one if the mirror predicts it.
     Plain,
     /// The difference of two codes against the difference of their mirrors.
@@ -318,6 +332,9 @@ pub struct VaryPoint {
     pub label: String,
     /// Position on the axis, for plots [-].
     pub at: Option<Number>,
+    /// Whether only the full form of a suite runs this point.
+    #[serde(default)]
+    pub full_only: bool,
     /// Keys of the case (`pairs.0.values.friction`) and their values at this point.
     #[schemars(with = "std::collections::BTreeMap<String, serde_json::Value>")]
     pub set: toml::Table,

@@ -14,6 +14,8 @@ pub struct Variant {
     pub name: String,
     /// Axis, label and position of each point.
     pub points: Vec<Point>,
+    /// Whether only the full form of a suite runs it: one of its points says so.
+    pub full_only: bool,
     /// Index of the point on each axis.
     #[serde(skip)]
     pub chosen: Vec<usize>,
@@ -98,7 +100,8 @@ fn variant(text: &CaseText, base: &Table, case: &Case, chosen: &[usize]) -> Resu
         });
     }
     let name = points.iter().map(|point| point.label.as_str()).collect::<Vec<_>>().join(",");
-    let mut variant = Variant { name, points, chosen: chosen.to_vec(), case: case.clone() };
+    let full_only = chosen_points().any(|(_, point)| point.full_only);
+    let mut variant = Variant { name, points, full_only, chosen: chosen.to_vec(), case: case.clone() };
     for (key, value) in chosen_points().flat_map(|(_, point)| &point.set) {
         replace(&mut table, key, value.clone()).map_err(|problem| text.invalid(Some(&variant), problem))?;
     }

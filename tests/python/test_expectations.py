@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from cross_check.compare.expectations import ExpectationError, Rule, expect, rules
-from cross_check.compare.verdicts import Comparison, Side
+from cross_check.compare.verdicts import FULL_ONLY, Comparison, Side
 
 
 def comparison(case: str = "impact/glass", left: str = "native[yade]", verdict: str = "agree") -> Comparison:
@@ -41,6 +41,14 @@ def test_a_rule_states_the_expectation_of_what_it_matches() -> None:
 def test_a_verdict_other_than_the_expected_one_fails() -> None:
     (judged,) = expect([comparison(verdict="not-run(gone)")], [RULE], {"impact"}, complete=True)
     assert not judged.as_expected
+
+
+def test_what_the_quick_form_leaves_out_is_expected_to_be_left_out_and_counted() -> None:
+    (judged,) = expect([comparison(verdict=FULL_ONLY)], [RULE], {"impact"}, complete=True)
+    assert judged.as_expected
+    judged, missing = expect([comparison(verdict=FULL_ONLY)], [replace(RULE, count=2)], {"impact"}, complete=True)
+    assert judged.as_expected
+    assert not missing.as_expected
 
 
 def test_a_comparison_without_a_rule_fails_where_its_case_has_rules() -> None:

@@ -246,7 +246,11 @@ def _luding(scene: Scene, law: LudingHysteretic) -> Words:
     """LudingMat: pairs get the harmonic mean of both materials, which are equal here."""
     if scene.model.moments.law != "free" or laws.frictional(scene):
         raise NotComparable("friction and moments beside luding_hysteretic have no translation in YADE (known: none)")
-    # G0 damps the shear too, which ks = 0 and no friction leave without a force.
+    if law.dashpot > 0 and not capability.head_on(scene):
+        raise NotComparable(
+            "YADE damps the slip of LudingPM as it damps the approach, whatever the friction: head-on only"
+        )
+    # G0 damps the shear too, without a limit: a head-on impact has none.
     values = {"k1": law.k1, "kp": law.kp, "kc": law.kc, "ks": 0.0, "PhiF": law.plasticity_depth, "G0": law.dashpot}
     text = ", ".join(f"{key}={number(value)}" for key, value in values.items())
     rows = [Row("model.normal.law", law.law, "Law2", "ScGeom_LudingPhys_Basic", "-", "walls are elastic with kp")]
