@@ -138,11 +138,11 @@ def spend(command: list[str], folder: Path, time_limit: float) -> Use:
                 reason = f"did not finish within {time_limit:g} s and was stopped"
                 raise RunFailed(f"{command[0]} {reason}; log: {folder / LOG}")
             time.sleep(PAUSE)
-        process.returncode = os.waitstatus_to_exitcode(status)
+        code = process.returncode = os.waitstatus_to_exitcode(status)
     finally:
         if process.returncode is None:
             stop(process)
-    check_end(command[0], process.returncode, folder / LOG)
+    check_end(command[0], code, folder / LOG)
     return Use(used.ru_utime + used.ru_stime, memory)
 
 

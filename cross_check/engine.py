@@ -17,7 +17,7 @@ import crossgrain
 from cross_check.record import RecordError, RunRecord, read
 from cross_check.scene import Scene, from_json
 
-#: Names a program to run scenes with, in place of the module: the planted faults of tests/mutants are such programs.
+#: Names a program to read cases and run scenes with, in place of the module: engines with planted faults are such.
 PROGRAM_VARIABLE = "CROSSGRAIN_NATIVE"
 
 
@@ -85,12 +85,24 @@ def _gate(raw: dict[str, Any]) -> Gate:
     return Gate(**typed)
 
 
+def _scenes(path: Path, overrides: list[str]) -> dict[str, Any]:
+    """The case with its variants and scenes as the engine makes them. Raises CaseError."""
+    program = os.environ.get(PROGRAM_VARIABLE)
+    if program is None:
+        try:
+            return json.loads(crossgrain.load_case(path, overrides))
+        except ValueError as error:
+            raise CaseError(str(error)) from error
+    command = [program, "scenes", str(path), *(word for item in overrides for word in ("--set", item))]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)  # noqa: S603
+    if done.returncode != 0:
+        raise CaseError(done.stderr.strip().removeprefix("error: "))
+    return json.loads(done.stdout)
+
+
 def load_case(path: Path, overrides: list[str] | None = None) -> Case:
     """Reads, checks and expands a case file. Raises CaseError."""
-    try:
-        raw: dict[str, Any] = json.loads(crossgrain.load_case(path, overrides or []))
-    except ValueError as error:
-        raise CaseError(str(error)) from error
+    raw = _scenes(path, overrides or [])
     members: dict[str, dict[int | None, list[Scene]]] = {}
     for item in raw["scenes"]:
         members.setdefault(item["variant"], {}).setdefault(item["seed"], []).append(from_json(item))

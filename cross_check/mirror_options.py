@@ -118,16 +118,20 @@ def mirror_from_json(raw: dict[str, Any]) -> Mirror:
     typed = dict(raw)
     if "tangential" in raw:
         item = raw["tangential"]
-        arms = {name: Arms(**item[name]) for name in ("pair_arms", "wall_arms")}
+        arms: dict[str, Any] = {name: Arms(**item[name]) for name in ("pair_arms", "wall_arms")}
         typed["tangential"] = TangentialOptions(**{**item, **arms})
     if "rolling" in raw:
         item = raw["rolling"]
         stiffness = dict(item["stiffness"])
         if "factor" in stiffness:
             stiffness["value"] = stiffness.pop("factor")
-        parts = {"stiffness": RollingStiffness(**stiffness), "dashpot": RollingDashpot(**item["dashpot"])}
+        parts: dict[str, Any] = {
+            "stiffness": RollingStiffness(**stiffness),
+            "dashpot": RollingDashpot(**item["dashpot"]),
+        }
         typed["rolling"] = RollingOptions(**{**item, **parts})
     if "twisting" in raw:
         item = raw["twisting"]
-        typed["twisting"] = TwistingOptions(**{**item, "spring": TwistingSpring(**item["spring"])})
+        spring: dict[str, Any] = {"spring": TwistingSpring(**item["spring"])}
+        typed["twisting"] = TwistingOptions(**{**item, **spring})
     return Mirror(**typed)

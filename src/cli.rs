@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -104,6 +104,14 @@ enum Command {
         /// Case file (TOML).
         case: PathBuf,
     },
+    /// Prints a case with its variants and scenes as JSON; `run-scene` takes a scene.
+    Scenes {
+        /// Case file (TOML).
+        case: PathBuf,
+        /// Replaces a value of the case, for instance `time.step.value="1e-8 s"`.
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
+    },
     /// Prints the JSON schema of the case file.
     Schema,
 }
@@ -181,8 +189,19 @@ fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
             let loaded = case::read(case, &[])?.load()?;
             say(format!("{}: {} variants, {} scenes", loaded.case.name, loaded.variants.len(), loaded.scenes.len()))
         }
+        Command::Scenes { case, set } => say(loaded_json(case, set)?),
         Command::Schema => say(serde_json::to_string_pretty(&case::json_schema()).unwrap_or_default()),
     }
+}
+
+/// A case with its variants and scenes as JSON; `overrides` as in [`case::read`].
+///
+/// # Errors
+/// The case cannot be read or run.
+pub fn loaded_json(path: &Path, overrides: &[String]) -> Result<String, Error> {
+    let loaded = case::read(path, overrides)?.load()?;
+    serde_json::to_string(&loaded)
+        .map_err(|error| Error::Parse { file: path.display().to_string(), message: error.to_string() })
 }
 
 /// Reads a scene from JSON; `file` is its name in messages.

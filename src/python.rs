@@ -26,8 +26,7 @@ mod module {
     #[pyfunction]
     #[pyo3(signature = (path, overrides = Vec::new()))]
     fn load_case(path: PathBuf, overrides: Vec<String>) -> PyResult<String> {
-        let loaded = case::read(&path, &overrides).and_then(case::Stated::load).map_err(raise)?;
-        serde_json::to_string(&loaded).map_err(|error| PyValueError::new_err(error.to_string()))
+        cli::loaded_json(&path, &overrides).map_err(raise)
     }
 
     /// Reads and checks a case file without asking whether this build can run it: JSON of the case.

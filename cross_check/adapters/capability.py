@@ -164,7 +164,10 @@ def head_on(scene: Scene) -> bool:
         return False
     first = scene.particles[0]
     if scene.bodies:
-        normal, other = scene.bodies[0].shape.normal, scene.bodies[0].motion.velocity or (0.0, 0.0, 0.0)
+        body = scene.bodies[0]
+        if isinstance(body.shape, Cylinder):
+            return False
+        normal, other = body.shape.normal, body.motion.velocity or (0.0, 0.0, 0.0)
     else:
         second = scene.particles[1]
         x, y, z = (a - b for a, b in zip(first.position, second.position, strict=True))

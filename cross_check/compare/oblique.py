@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cross_check.compare.quantity import Quantity, Undefined, impact
+from cross_check.geometry import facing
 from cross_check.mirror_options import Arms
 from cross_check.record import Array, RunRecord
 from cross_check.scene import Scene
@@ -50,7 +51,7 @@ def frame(scene: Scene, record: RunRecord) -> Frame:
         relative, rolled = relative - velocity[:, 1], rolled + other.radius * spins[:, 1]
     else:
         body = scene.bodies[0]
-        partner, normal = body.material, np.array(body.shape.normal)
+        partner, normal = body.material, facing(body.shape, record["position"][:1, 0])[0][0]
         relative = relative - np.array(body.motion.velocity or (0.0, 0.0, 0.0))
     surface = relative - np.cross(rolled, normal)
     slip = surface[0] - float(surface[0] @ normal) * normal
@@ -127,7 +128,7 @@ def spin_change(scene: Scene, record: RunRecord) -> float:
 def _normal(scene: Scene, record: RunRecord) -> Array:
     impact(scene, record)
     if len(scene.particles) == 1:
-        return np.array(scene.bodies[0].shape.normal)
+        return facing(scene.bodies[0].shape, record["position"][:1, 0])[0][0]
     branch = record["position"][0, 0] - record["position"][0, 1]
     return branch / np.linalg.norm(branch)
 
@@ -153,7 +154,7 @@ def spin_defect(scene: Scene, record: RunRecord) -> float:
         branch = position[:, 0] - position[:, 1]
         normal = branch / np.linalg.norm(branch, axis=1)[:, None]
     else:
-        normal = np.broadcast_to(np.array(scene.bodies[0].shape.normal), position[:, 0].shape)
+        normal, _ = facing(scene.bodies[0].shape, position[:, 0])
     dt = record.header.time_step
     neighbours = np.diff(record.step) == 1
     inertia, defect, scale = _inertia(scene), 0.0, 0.0

@@ -6,15 +6,18 @@ import numpy as np
 
 from cross_check.compare.quantity import Quantity, Undefined
 from cross_check.record import Array, RunRecord
-from cross_check.scene import Scene
+from cross_check.scene import Plane, Scene
 
 # The steady part of a decay that is measured, as shares of the run: the spring is loaded before, motion ends after.
 STEADY = (0.4, 0.9)
 
 
-def _on_plane(scene: Scene) -> None:
-    if len(scene.particles) != 1 or len(scene.bodies) != 1:
+def _plane(scene: Scene) -> Plane:
+    """The only body of a scene with one sphere. Raises Undefined for other scenes."""
+    shape = scene.bodies[0].shape if len(scene.particles) == len(scene.bodies) == 1 else None
+    if not isinstance(shape, Plane):
         raise Undefined("not one sphere on one plane")
+    return shape
 
 
 def _spin(scene: Scene, record: RunRecord) -> Array:
@@ -24,8 +27,7 @@ def _spin(scene: Scene, record: RunRecord) -> Array:
 
 def rolling_velocity(scene: Scene, record: RunRecord) -> float:
     """Speed of the centre along the plane at the end [m/s]."""
-    _on_plane(scene)
-    normal = np.array(scene.bodies[0].shape.normal)
+    normal = np.array(_plane(scene).normal)
     velocity = record.synchronized_velocity()[-1, 0]
     return float(np.linalg.norm(velocity - float(velocity @ normal) * normal))
 
@@ -36,10 +38,10 @@ def sliding_time(scene: Scene, record: RunRecord) -> float:
     It lies on the line through the samples at which the slip has first fallen to a half and to a tenth: the last of the
     slip is held by spring and dashpot.
     """
-    _on_plane(scene)
-    normal = np.array(scene.bodies[0].shape.normal)
+    plane = _plane(scene)
+    normal = np.array(plane.normal)
     velocity = record.synchronized_velocity()[:, 0]
-    overlap = scene.particles[0].radius - (record["position"][:, 0] - np.array(scene.bodies[0].shape.point)) @ normal
+    overlap = scene.particles[0].radius - (record["position"][:, 0] - np.array(plane.point)) @ normal
     arm = scene.particles[0].radius - 0.5 * np.maximum(overlap, 0.0)
     slip = velocity - np.cross(_spin(scene, record), normal) * arm[:, None]
     along = slip @ (velocity[0] / np.linalg.norm(velocity[0]))
@@ -59,15 +61,14 @@ def _steady_rate(record: RunRecord, values: Array) -> float:
 
 def rolling_deceleration(scene: Scene, record: RunRecord) -> float:
     """Deceleration of the centre along the plane in the steady part of the run [m/s2]."""
-    _on_plane(scene)
+    _plane(scene)
     velocity = record.synchronized_velocity()[:, 0]
     return -_steady_rate(record, velocity @ (velocity[0] / np.linalg.norm(velocity[0])))
 
 
 def twisting_deceleration(scene: Scene, record: RunRecord) -> float:
     """Rate at which the spin about the normal falls in the steady part of the run [rad/s2]."""
-    _on_plane(scene)
-    spin = _spin(scene, record) @ np.array(scene.bodies[0].shape.normal)
+    spin = _spin(scene, record) @ np.array(_plane(scene).normal)
     if spin[0] == 0.0:
         raise Undefined("the sphere does not spin about the normal")
     return -_steady_rate(record, spin * np.sign(spin[0]))

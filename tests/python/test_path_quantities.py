@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from cross_check.adapters import ADAPTERS
-from cross_check.compare.path_quantities import tangential_body_change, tangential_length_change, torque_history
+from cross_check.compare.oblique import torque_history
+from cross_check.compare.path_quantities import tangential_body_change, tangential_length_change
 from cross_check.compare.quantity import Undefined
 from cross_check.engine import load_case
 from cross_check.record import Code, Header, RunRecord

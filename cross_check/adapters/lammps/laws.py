@@ -75,8 +75,11 @@ def check(scene: Scene) -> None:
         raise NotComparable(
             "this version of LAMMPS forms the friction cap of dmt from a variable that it never sets: frictionless only"
         )
-    linear = isinstance(law, LinearHistory) and isinstance(normal, LinearSpringDashpot)
-    if linear and law.dashpot > 0 and normal.dashpot == 0:
+    if (
+        isinstance(law, LinearHistory)
+        and isinstance(normal, LinearSpringDashpot)
+        and law.dashpot > 0.0 == normal.dashpot
+    ):
         raise NotComparable("LAMMPS states the tangential dashpot as a multiple of the normal one, which is 0")
 
 

@@ -204,6 +204,7 @@ def integrate(whole: Scene, cut: bool, plane_factor: float | None) -> tuple[Arra
                 f[i] += size * normal
                 f[j] -= size * normal
             for body in whole.bodies:
+                assert isinstance(body.shape, Plane)
                 normal = np.array(body.shape.normal)
                 overlap = radius[i] - float((x[i] - np.array(body.shape.point)) @ normal)
                 r = radius[i] if plane_factor is None else radius[i] * plane_factor / (1 + plane_factor)

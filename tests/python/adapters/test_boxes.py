@@ -26,7 +26,7 @@ NAMES = "xyz"
 def boxed(whole: Scene, periodic: str, variant: str, size: float = SIZE) -> Scene:
     """The scene in a box of half the edge `size` [m] that is periodic along the axes named."""
     x, y, z = ("periodic" if axis in periodic else "open" for axis in NAMES)
-    return replace(whole, domain=Domain((-size,) * 3, (size,) * 3, (x, y, z)), variant=variant)
+    return replace(whole, domain=Domain((-size, -size, -size), (size, size, size), (x, y, z)), variant=variant)
 
 
 def across(whole: Scene, shift: Vector) -> Scene:
