@@ -146,6 +146,33 @@ fn bad_scenes_are_refused_by_name() {
     }
 }
 
+/// A mirror of YADE that asks for what YADE does not compute.
+#[test]
+fn options_that_a_mirrored_code_does_not_have_are_refused() {
+    let arms = serde_json::json!({ "slip": "mid_overlap", "torque": "mid_overlap" });
+    let options = serde_json::json!({
+        "history": "displacement", "rotation": "small_angles", "order": "rotate_first", "increment": "present",
+        "cap": "elastic", "friction": "total", "pair_arms": arms, "wall_arms": arms,
+    });
+    let mut json = scene();
+    json["model"]["tangential"] = serde_json::json!({ "law": "mindlin", "history": "default" });
+    for pair in json["pairs"].as_array_mut().unwrap() {
+        pair["friction"] = 0.3.into();
+    }
+    json["mirror"]["code"] = "yade".into();
+    json["mirror"]["tangential"] = options;
+    let refused = |json: &serde_json::Value| {
+        let scene = parse_scene("spoiled.json", &json.to_string()).unwrap();
+        simulation::run(&scene, &simulation::Options::threads(1), &|_| {}).err().map(|error| error.to_string())
+    };
+    let message = refused(&json).unwrap();
+    for text in ["model.tangential.options", "displacement", "native[yade] mirrors the options of that code only"] {
+        assert!(message.contains(text), "no `{text}` in: {message}");
+    }
+    json["mirror"]["tangential"]["history"] = "force".into();
+    assert_eq!(refused(&json), None);
+}
+
 #[test]
 fn two_particles_of_a_scene_at_one_place_are_refused() {
     let mut json = scene();
