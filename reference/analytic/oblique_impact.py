@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import integrate
 
-from cross_check.scene import Material, Scene
+from cross_check.scene import Material, Plane, Scene
 
 Array = NDArray[np.float64]
 
@@ -174,6 +174,8 @@ def impact_of(scene: Scene) -> Impact:
             raise ValueError(f"{scene.name}: the centres do not approach head-on")
     else:
         body = scene.bodies[0]
+        if not isinstance(body.shape, Plane):
+            raise ValueError(f"{scene.name}: the equations are those of a plane")
         partner, normal = body.material, np.array(body.shape.normal)
         velocity = velocity - np.array(body.motion.velocity or (0.0, 0.0, 0.0))
     pair = scene.pair(sphere.material, partner)
