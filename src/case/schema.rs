@@ -354,10 +354,13 @@ pub struct Ensemble {
 pub struct Output {
     /// Steps between samples.
     pub every: u64,
+    /// Whether samples hold the force of every contact.
+    #[serde(default)]
+    pub contacts: bool,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { every: 1 }
+        Self { every: 1, contacts: false }
     }
 }
