@@ -60,9 +60,7 @@ pub fn place(case: &Case, scene: &mut Scene) -> Result<Origins, Problem> {
             let places = insertion
                 .fill(&radii, &mut random)
                 .map_err(|full| Problem::new(format!("particles.{i}.count"), count, full.to_string()))?;
-            let mut moving = || {
-                (any(Some(*velocity), &mut random), any(*angular_velocity, &mut random))
-            };
+            let mut moving = || (any(Some(*velocity), &mut random), any(*angular_velocity, &mut random));
             let spheres = radii.iter().zip(places);
             placed[i] = spheres.map(|(radius, at)| sphere(case, material, *radius, at.into(), moving())).collect();
         }
@@ -89,7 +87,8 @@ fn sphere(
 
 /// A cubic lattice, x running fastest; noise that crosses a periodic face re-enters on the other side.
 fn lattice(case: &Case, source: &ParticleSource, domain: &Domain, random: &mut Random) -> Vec<SceneParticle> {
-    let ParticleSource::Lattice { material, count, radius, origin, spacing, noise, velocity, angular_velocity } = source
+    let ParticleSource::Lattice { material, count, radius, origin, spacing, noise, velocity, angular_velocity } =
+        source
     else {
         return Vec::new();
     };

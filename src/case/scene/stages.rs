@@ -48,9 +48,8 @@ pub fn resolve(case: &Case, scene: &Scene, steps: &[u64]) -> Vec<SceneStage> {
 fn resolved(case: &Case, scene: &Scene, values: &mut [PairValues], action: &Action) -> Option<SceneAction> {
     match action {
         Action::SetPair { between: [first, second], values: new } => {
-            let stated = |[one, other]: &[String; 2]| {
-                [one, other] == [first, second] || [other, one] == [first, second]
-            };
+            let stated =
+                |[one, other]: &[String; 2]| [one, other] == [first, second] || [other, one] == [first, second];
             let at = case.pairs.iter().position(|pair| stated(&pair.between))?;
             values[at].update(new);
             let index = |name: &String| scene.materials.iter().position(|material| material.name == *name);

@@ -1,7 +1,7 @@
 //! What this build computes of what the schema can say.
 
-use crate::case::protocol::{Action, End, Motion, Shape, Stage};
 use crate::case::measure::Measure;
+use crate::case::protocol::{Action, End, Motion, Shape, Stage};
 use crate::case::schema::{Case, Geometry};
 use crate::case::source::ParticleSource;
 use crate::case::tag;
