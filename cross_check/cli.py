@@ -124,6 +124,7 @@ def deck_(case: str, code: str, out: Path, overrides: tuple[str, ...]) -> None:
 @click.option("--codes", default=",".join(ADAPTERS), show_default=True, help="Codes to run, joined by commas.")
 @click.option("--jobs", type=click.IntRange(min=1), default=None, help="Runs at a time; the number of cores if absent.")
 @click.option("--full", is_flag=True, help="Runs the variants that the quick form of a suite leaves out, too.")
+@click.option("--seeds", type=click.IntRange(min=1), default=None, help="Seeds of every ensemble; all if absent.")
 @click.option("--live", is_flag=True, help="Makes every run now: neither the cache nor recorded runs are used.")
 @click.option("--any-version", is_flag=True, help="Runs versions for which the translation is not proved, too.")
 @click.option("--expected", type=click.Path(path_type=Path), default=None, help="Expected verdicts of own cases.")
@@ -134,6 +135,7 @@ def run_(
     codes: str,
     jobs: int | None,
     full: bool,
+    seeds: int | None,
     live: bool,
     any_version: bool,
     expected: Path | None,
@@ -145,7 +147,9 @@ def run_(
     unknown = [code for code in chosen if code not in ADAPTERS]
     if unknown:
         _fail(f"--codes {codes}: no such code {', '.join(unknown)} (known: {', '.join(ADAPTERS)})")
-    options = runs.Options(codes=chosen, live=live, full=full, any_version=any_version, time_limit=time_limit)
+    options = runs.Options(
+        codes=chosen, live=live, full=full, seeds=seeds, any_version=any_version, time_limit=time_limit
+    )
     if jobs is not None:
         options = replace(options, jobs=jobs)
     with _refusing():
