@@ -147,13 +147,13 @@ def run_(
     unknown = [code for code in chosen if code not in ADAPTERS]
     if unknown:
         _fail(f"--codes {codes}: no such code {', '.join(unknown)} (known: {', '.join(ADAPTERS)})")
-    options = runs.Options(
-        codes=chosen, live=live, full=full, seeds=seeds, any_version=any_version, time_limit=time_limit
-    )
+    options = runs.Options(codes=chosen, live=live, full=full, any_version=any_version, time_limit=time_limit)
     if jobs is not None:
         options = replace(options, jobs=jobs)
     with _refusing():
         suite, cases = suites.select(what)
+        if seeds is not None:
+            cases = [suites.with_seeds(case, seeds) for case in cases]
         out.mkdir(parents=True, exist_ok=True)
         with (
             _progress(runs.count(cases, options)) as progress,

@@ -27,12 +27,17 @@ Progress = Callable[[str, int], None]
 """Told the name of a source and how many more of its runs are done."""
 
 
+# Time per particle and step [s] after which a run hangs: ten times that of the slowest code.
+SLOWEST = 1e-4
+
+
 @dataclass(frozen=True)
 class Options:
     """How runs are made.
 
     `full`: variants that the quick form leaves out run too. `live`: neither the cache nor recorded runs are used.
-    `recorded`: recorded runs may stand in for live ones. `any_version`: codes of versions other than the proved ones run too. `time_limit` [s] holds for each deck.
+    `recorded`: recorded runs may stand in for live ones. `any_version`: codes of versions other than the proved ones run
+    too. `time_limit` [s] holds for each deck; beds have a longer one where their size asks for it.
     """
 
     codes: tuple[str, ...] = tuple(ADAPTERS)
@@ -232,7 +237,7 @@ def _external(
     def run(share: tuple[int, list[int]]) -> None:
         number, indices = share
         decks = [deck for index in indices if (deck := jobs[index].deck) is not None]
-        found = adapter.run(decks, work / f"{adapter.name}-{number}", options.time_limit)
+        found = adapter.run(decks, work / f"{adapter.name}-{number}", _time_limit(decks, options))
         for index, result in zip(indices, found, strict=True):
             outcomes[index] = _kept(jobs[index], result, code, cache)
             progress(adapter.name, 1)
@@ -240,6 +245,12 @@ def _external(
     with ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(run, [(number, share) for number, share in enumerate(shares) if share]))
     return [outcomes[index] for index in range(len(jobs))]
+
+
+def _time_limit(decks: list[Deck], options: Options) -> float:
+    """Seconds that each of the decks may take."""
+    largest = max((len(deck.scene.particles) * deck.scene.steps for deck in decks), default=0)
+    return max(options.time_limit, SLOWEST * largest)
 
 
 def _stored(job: _Job, code: Code | None, options: Options, cache: Cache) -> Outcome | None:
