@@ -174,7 +174,8 @@ def read(folder: Path, known: Mapping[str, str] | None = None) -> Measured:
         with (folder / "series.npz").open("rb") as file, np.load(file) as data:
             series = {name: data[name] for name in data.files}
         per_particle = {key: [float(value) for value in series.pop(key)] for key in PER_PARTICLE}
-        header = Header(**{**raw["header"], **per_particle, "code": Code(**raw["header"]["code"])})
+        content: dict[str, Any] = {**raw["header"], **per_particle, "code": Code(**raw["header"]["code"])}
+        header = Header(**content)
         time, stage = series.pop(TIME), series.pop(STAGE)
         record = Measured(header, time, stage, tuple(raw["stages"]), series, dict(raw["observables"]))
     except RecordError:

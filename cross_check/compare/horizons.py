@@ -14,7 +14,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from cross_check.compare.samples import BadSample
 from cross_check.record import Array
@@ -64,7 +64,7 @@ class Divergence:
         """Time [s] until which no particle is off by FINE diameters: the end of the run where none ever is."""
         return float(self.times[-1]) if self.fine is None else self.fine
 
-    def in_window(self) -> Array:
+    def in_window(self) -> NDArray[np.bool_]:
         """Which samples lie in the deterministic window, shape (T,) of bool."""
         return self.times <= self.deterministic_window if self.fine is None else self.times < self.fine
 
