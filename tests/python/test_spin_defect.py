@@ -10,7 +10,7 @@ import pytest
 from cross_check.compare.oblique import spin_defect
 from cross_check.compare.quantities import Undefined
 from cross_check.mirror_options import Arms, Mirror, TangentialOptions
-from cross_check.record import Array, Code, Header, RunRecord
+from cross_check.record import Code, Header, RunRecord
 from cross_check.scene import Scene
 from cross_check.suites import every_case
 
@@ -52,7 +52,7 @@ def impact(arm: float, velocity_time: str = "synchronized", gain: float = 1.0) -
         mass=[BALL.mass], radius=[BALL.radius], bodies=["floor"], gravity=[0.0, 0.0, 0.0],
     )  # fmt: skip
     step = np.arange(SAMPLES)
-    columns: dict[str, Array] = {
+    columns = {
         "step": step, "time": step * DT, "position": position, "velocity": np.zeros((SAMPLES, 1, 3)),
         "angular_velocity": spin, "force": force, "torque": np.zeros((SAMPLES, 1, 3)),
     }  # fmt: skip
