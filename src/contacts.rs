@@ -154,7 +154,7 @@ pub struct Flow {
     pub dissipated: f64,
     /// Losses of springs and of plastic flow.
     pub losses: Losses,
-    /// Energy that entered contacts.
+    /// Energy that entered contacts by approach, and the work of sliding, rolling and twisting.
     pub entered: f64,
     /// Work of moving bodies on the particles.
     pub body_work: f64,

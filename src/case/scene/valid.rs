@@ -62,6 +62,10 @@ impl Scene {
             Ok(laws) => laws,
             Err(problem) => return Some(problem.to_string()),
         };
+        let cylinders = self.bodies.iter().any(|body| matches!(body.shape, SceneShape::Cylinder { .. }));
+        if let Err(problem) = self.mirror.check(cylinders) {
+            return Some(problem.to_string());
+        }
         self.indices()
             .or_else(|| self.staged())
             .or_else(|| self.numbers())
