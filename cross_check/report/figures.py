@@ -30,7 +30,10 @@ FEW = 6  # up to here starting workers takes longer than drawing
 
 @dataclass(frozen=True)
 class Figured:
-    """A figure that has been drawn: `svg` is its inline form, `notes` say what the drawing cannot show."""
+    """A figure that has been drawn: `svg` is its inline form, `notes` say what the drawing cannot show.
+
+    `figures/NAME.svg` and, where `pdf`, `figures/NAME.pdf` lie beside the page.
+    """
 
     scene: str
     title: str
@@ -38,6 +41,7 @@ class Figured:
     svg: str
     sweep: bool
     notes: list[str]
+    pdf: bool
 
 
 def draw_all(campaign: Campaign, folder: Path, pdf: bool = True) -> list[Figured]:
@@ -125,4 +129,4 @@ def draw(job: Job) -> Figured:
     Path(f"{job.stem}.svg").write_text(svg, encoding="utf-8")
     notes = [drawn.note for drawn in (*job.curves, *job.residuals) if drawn.note]
     name = job.stem.name
-    return Figured(job.scene, job.title, name, inline_svg.slim(svg, name, job.title), job.sweep, notes)
+    return Figured(job.scene, job.title, name, inline_svg.slim(svg, name, job.title), job.sweep, notes, job.pdf)
