@@ -15,13 +15,14 @@ import click
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from cross_check import bench, campaign, doctor, recording, runs, suites
+from cross_check import bench, campaign, doctor, export, recording, runs, suites
 from cross_check.adapters import ADAPTERS
 from cross_check.adapters.interface import InvalidScene, NotComparable, RunFailed
 from cross_check.compare.checks import UnknownQuantity
 from cross_check.compare.expectations import ExpectationError
 from cross_check.engine import CaseError, load_case
-from cross_check.record import RecordError
+from cross_check.meshes import MeshError
+from cross_check.record import RecordError, read
 
 AS_EXPECTED, UNEXPECTED, BAD_INPUT = 0, 1, 2
 
@@ -39,6 +40,8 @@ def _refusing() -> Generator[None]:
     except (
         CaseError,
         RecordError,
+        export.ExportError,
+        MeshError,
         UnknownQuantity,
         ExpectationError,
         InvalidScene,
@@ -184,6 +187,31 @@ def report_(folder: Path) -> None:
     with _refusing():
         page, _ = campaign.write(campaign.load(folder), folder)
     click.echo(page)
+
+
+@main.command("export")
+@click.argument("record", type=click.Path(path_type=Path))
+@click.option("--to", required=True, metavar="|".join(export.FORMATS), help="Format of the files.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=Path("export"), show_default=True, help="Output folder."
+)
+@click.option("--case", default=None, help="Name or file of the record's case; tells materials, domain and walls.")
+@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Replaces a value of the case.")
+@click.option("--contacts", is_flag=True, help="Refuses a record without contacts.")
+def export_(record: Path, to: str, out: Path, case: str | None, overrides: tuple[str, ...], contacts: bool) -> None:
+    """Converts the record folder RECORD for ParaView (pvd), OVITO (dump), pandas (csv) or mesh tools (vtu)."""
+    with _refusing():
+        if case is None and overrides:
+            raise export.ExportError(f"--set {overrides[0]}: there is no --case whose value could be replaced")
+        stated = None
+        if case is not None:
+            _, found = suites.select(case)
+            if len(found) != 1:
+                raise export.ExportError(f"--case {case}: holds {len(found)} cases, the record is of one")
+            stated = load_case(found[0].path, list(overrides)) if overrides else found[0]
+        written = export.write(read(record), to, out, case=stated, contacts=contacts)
+    for path in written:
+        click.echo(path)
 
 
 @main.command("record")

@@ -31,7 +31,10 @@ FEW = 6  # up to here starting workers takes longer than drawing
 
 @dataclass(frozen=True)
 class Figured:
-    """A figure that has been drawn: `svg` is its inline form, `notes` say what the drawing cannot show."""
+    """A figure that has been drawn: `svg` is its inline form, `notes` say what the drawing cannot show.
+
+    `figures/NAME.svg` and, where `pdf`, `figures/NAME.pdf` lie beside the page.
+    """
 
     scene: str
     title: str
@@ -39,6 +42,7 @@ class Figured:
     svg: str
     sweep: bool
     notes: list[str]
+    pdf: bool
 
 
 def draw_all(campaign: Campaign, folder: Path, pdf: bool = True) -> list[Figured]:
@@ -131,4 +135,4 @@ def draw(job: Job) -> Figured:
     """Draws one figure and writes its files; the same job gives the same bytes."""
     svg = save(lambda: drawing.figure(job), job.stem, job.title, job.pdf)
     notes = [drawn.note for drawn in (*job.curves, *job.residuals) if drawn.note]
-    return Figured(job.scene, job.title, job.stem.name, svg, job.sweep, notes)
+    return Figured(job.scene, job.title, job.stem.name, svg, job.sweep, notes, job.pdf)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from cross_check.adapters.interface import Row
 from cross_check.compare.verdicts import Comparison, Side, kind
-from cross_check.report import notation
+from cross_check.report import notation, tables
 from cross_check.report.campaign import Campaign, CaseInfo, SourceRun, case_of, variant_of
 from cross_check.report.figures import Figured
 from cross_check.report.matrix import SYMBOLS, Entry, severity
@@ -96,7 +96,7 @@ class SceneView:
 
 @dataclass(frozen=True)
 class CaseView:
-    """One case: what it asks and its scenes."""
+    """One case: what it asks and its scenes; `table` is its LaTeX table, empty where nothing was compared."""
 
     info: CaseInfo
     anchor: str
@@ -104,6 +104,7 @@ class CaseView:
     scenes: list[SceneView]
     count: int
     unexpected: int
+    table: str
 
 
 @dataclass(frozen=True)
@@ -212,7 +213,11 @@ def cases(campaign: Campaign, entries: list[Entry], figures: list[Figured]) -> l
         shown = [figure for figure in sweeps if figure.scene == name]
         odd = sum(view.unexpected for view in mine)
         count = sum(len(view.lines) for view in mine)
-        out.append(CaseView(info, f"case-{notation.slug(name)}", shown, mine, count, odd))
+        out.append(
+            CaseView(
+                info, f"case-{notation.slug(name)}", shown, mine, count, odd, tables.path_of(name) if count else ""
+            )
+        )
     return out
 
 

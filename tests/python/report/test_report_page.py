@@ -66,6 +66,14 @@ def test_every_link_leads_somewhere_and_anchors_are_unique(odd: Written) -> None
     assert set(re.findall(r'href="#([^"]*)"', odd.page)) | set(re.findall(r"url\(#([^)]*)\)", odd.page)) <= set(anchors)
 
 
+def test_tables_and_figures_are_linked_and_lie_beside_the_page(odd: Written) -> None:
+    links = set(re.findall(r'href="([^#"]*)"', odd.page))
+    report = odd.folder / "report"
+    files = {path.relative_to(report).as_posix() for path in report.glob("*/*")}
+    assert links == files
+    assert {link.rpartition(".")[2] for link in links} == {"tex", "svg", "pdf"}
+
+
 def test_dark_scheme_and_print_are_styled(odd: Written) -> None:
     assert "(prefers-color-scheme: dark)" in odd.page
     assert "@media print" in odd.page
