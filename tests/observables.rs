@@ -124,9 +124,11 @@ fn a_bed_of_layers_has_the_fraction_of_its_slab_and_of_its_centre() {
     let profile = state.list(json!({"kind": "packing_profile", "bins": bins}));
     assert!((profile.iter().sum::<f64>() * 0.75 * 16.0 - 160.0 * PI / 6.0).abs() < 1e-11);
     // A moved floor moves the bed; a region above the surface is empty.
-    state.system["bodies"][0]["shape"]["point"] = json!([0, 0, -1]);
+    state.system["bodies"][0]["shape"]["point"] = json!([0, 0, 0.25]);
     let moved = state.number(json!({"kind": "packing_fraction_by_center", "floor": "floor"}));
-    assert!((moved - 160.0 * PI / 6.0 / (2.0 * 16.0 * 6.0)).abs() < 1e-13);
+    assert!((moved - 160.0 * PI / 6.0 / (2.0 * 16.0 * 4.75)).abs() < 1e-13);
+    state.system["bodies"][0]["shape"]["point"] = json!([0, 0, -1]);
+    assert!(state.number(json!({"kind": "packing_fraction_by_center", "floor": "floor"})).is_nan(), "below the domain");
     let above = json!({"kind": "bed", "floor": "floor", "above_floor": 20, "below_surface": 0});
     assert!(state.number(json!({"kind": "packing_fraction", "region": above, "radii": "present"})).is_nan());
 }

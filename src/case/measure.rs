@@ -58,7 +58,7 @@ pub enum Measure {
     CoordinationWithoutRattlers {
         /// Region of the centres.
         region: Region,
-        /// Fewest contacts of a particle that is no rattler; 4 holds a sphere with friction [-].
+        /// Fewest contacts of a particle that is no rattler, from 1 to 12 [-].
         least_contacts: u32,
         /// Whether contacts with bodies count too; absent, they do not.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -68,7 +68,7 @@ pub enum Measure {
     RattlerShare {
         /// Region of the centres.
         region: Region,
-        /// Fewest contacts of a particle that is no rattler; 4 holds a sphere with friction [-].
+        /// Fewest contacts of a particle that is no rattler, from 1 to 12 [-].
         least_contacts: u32,
     },
     /// Force of the particles on a body [N].

@@ -2,8 +2,8 @@
 //!
 //! The mean coordination is Z = (contacts of the N particles of a region, each pair counted at both) / N. A rattler has
 //! fewer than a stated number of contacts with bodies and with particles that are no rattlers; they are removed until none
-//! is left (C. S. O'Hern et al., *Phys. Rev. E* 68 (2003) 011306). Four contacts hold a sphere with friction at least: six
-//! equations of balance and three unknowns for each contact, shared by two, leave d + 1 = 4 in three dimensions.
+//! is left (C. S. O'Hern et al., *Phys. Rev. E* 68 (2003) 011306, where d + 1 contacts are asked of spheres without friction).
+//! What the number should be is a choice that the case states: 4 is usual, in three dimensions.
 
 use super::forces::statistic;
 use super::region::Part;

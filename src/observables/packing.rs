@@ -33,7 +33,7 @@ pub fn fraction(sample: &Sample, region: &Region, radii: Radii) -> Result<f64, S
     Ok(if volume > 0.0 { part.solid(sample, radius) / volume } else { f64::NAN })
 }
 
-/// By the centre of mass.
+/// By the centre of mass; NaN where the floor lies outside the domain or the walls.
 ///
 /// # Errors
 /// The floor is no plane, or walls enclose no computed shape.
@@ -47,7 +47,7 @@ pub fn by_center(sample: &Sample, floor: &str) -> Result<f64, String> {
         mass += m;
         solid += sphere_volume::sphere(*radius);
     }
-    Ok(solid / (2.0 * area * moment / mass))
+    Ok(if area > 0.0 { solid / (2.0 * area * moment / mass) } else { f64::NAN })
 }
 
 /// In each bin; NaN where nothing is enclosed.
