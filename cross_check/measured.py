@@ -31,7 +31,7 @@ class Measured:
     """Observables of one run of one scene by one source.
 
     `time` [s], shape (T,), increases; `stage` is the index into `stages` of the stage in which a sample was taken,
-    shape (T,), and does not decrease. `series` holds (T,) or (T, K) per observable, `units` the unit of each.
+    shape (T,), and does not decrease. NaN in a series stands where an observable is not defined. `series` holds (T,) or (T, K) per observable, `units` the unit of each.
     """
 
     header: Header
@@ -78,6 +78,8 @@ class Measured:
         _, values = self.curve(observable, stage)
         # Rounding must not turn 0.1 of 100 samples into 11.
         count = max(1, math.ceil(average * len(values) - 1e-9))
+        if np.any(np.isnan(values[-count:])):
+            raise RecordError(f"{self.name}: {observable} is not defined in all of the last {count} samples of {stage}")
         return np.asarray(np.mean(values[-count:], axis=0), dtype=float)
 
     def value(self, observable: str, stage: str, average: float) -> float:
@@ -100,7 +102,7 @@ class Measured:
         return found.hexdigest()
 
     def check(self, where: str, known: Mapping[str, str] | None = None) -> None:
-        """Raises RecordError unless the record is complete, finite and of one length.
+        """Raises RecordError unless the record is complete, of one length, and nowhere infinite.
 
         `known` has the unit of every observable that there is; without it any name is allowed.
         """
@@ -123,9 +125,9 @@ class Measured:
                 raise RecordError(
                     f"{where}: observable {name} has shape {array.shape}, expected ({samples},) or ({samples}, K)"
                 )
-            if not np.all(np.isfinite(array)):
-                bad = int(np.argwhere(~np.isfinite(array))[0][0])
-                raise RecordError(f"{where}: observable {name} is not a finite number at time {self.time[bad]} s")
+            if np.any(np.isinf(array)):
+                bad = int(np.argwhere(np.isinf(array))[0][0])
+                raise RecordError(f"{where}: observable {name} is infinite at time {self.time[bad]} s")
 
     def write(self, folder: Path) -> None:
         """Checks the record and writes `measured.json` and `series.npz` into `folder`."""

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from cross_check import reference
+from cross_check.compare import trajectories
 from cross_check.compare.differences import UnknownDifference, cause
 from cross_check.compare.outcome import NATIVE, Outcomes, mirror_name
 from cross_check.compare.quantities import QUANTITIES, Quantity, Undefined
@@ -317,7 +318,25 @@ def _refined(bench: Bench, extrapolate: bool) -> Comparison:
     return bench.comparison(left, right, discrepancy, verdict, note)
 
 
+def _horizon(bench: Bench) -> Iterator[Comparison]:
+    """How long each code stays with its mirror, which the bound judges; native beside it is reported in the note."""
+    for code in bench.codes:
+        mirror = mirror_name(code)
+        try:
+            found = trajectories.parting(bench.scene, bench.outcomes, mirror, code)
+            plain = trajectories.parting(bench.scene, bench.outcomes, NATIVE, code)
+        except Undefined as why:
+            yield bench.undecided(mirror, code, str(why))
+            continue
+        window = found.deterministic_window
+        left, right = Side(mirror, window, None), Side(code, float(found.times[-1]), None)
+        short = max(bench.gate.bound - window, 0.0)
+        note = f"{mirror} and {code}: {trajectories.describe(found)}. {NATIVE} and {code}: {trajectories.describe(plain)}"
+        yield bench.comparison(left, right, short, DIFFER if short > 0.0 else AGREE, note)
+
+
 CHECKS: dict[str, Callable[[Bench], Iterator[Comparison]]] = {
+    "horizon": _horizon,
     "reference": _against_reference,
     "mirror": _mirrors,
     "plain": _plain,

@@ -98,6 +98,7 @@ QUANTITIES = {
         Quantity("energy_residual", "-", scalar=energy_residual),
         Quantity("force_history", "N", series=force_history),
         Quantity("position_history", "m", series=position_history),
+        Quantity("trajectory", "s", series=position_history),
         *path_quantities.QUANTITIES,
         *oblique.QUANTITIES,
         *rolling.QUANTITIES,

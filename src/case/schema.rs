@@ -296,6 +296,8 @@ pub enum Check {
     Prediction,
     /// The native engine against itself at half the time step.
     Convergence,
+    /// Time until which each code and its mirror compute the same trajectory: at least the bound [s].
+    Horizon,
     /// Equivalence of ensemble means within the bound: native with each code.
     Equivalence,
     /// Equivalence of the ensemble means of an observable over the whole run: native with each code.

@@ -78,10 +78,10 @@ def test_unknown_names_list_the_known_ones() -> None:
 def broken() -> dict[str, tuple[Measured, str]]:
     record = run()
     nan = {name: np.array(array) for name, array in record.series.items()}
-    nan["coordination"][3] = np.nan
+    nan["coordination"][3] = np.inf
     short = record.series | {"coordination": np.zeros(7)}
     return {
-        "nan": (replace(record, series=nan), "coordination is not a finite number at time 0.03 s"),
+        "nan": (replace(record, series=nan), "coordination is infinite at time 0.03 s"),
         "short": (replace(record, series=short), r"coordination has shape \(7,\), expected \(100,\) or \(100, K\)"),
         "unit": (replace(record, units={"coordination": "-"}), "packing_fraction has no unit"),
         "series": (replace(record, units=UNITS | {"porosity": "-"}), "porosity has a unit and no series"),
