@@ -13,7 +13,7 @@ from cross_check import engine
 from cross_check.adapters import ADAPTERS
 from cross_check.adapters.interface import NotComparable
 from cross_check.record import Array, RunRecord
-from cross_check.scene import Motion, Scene, SetGravity, SetMotion, SetPair, Stage
+from cross_check.scene import Scene, SetPair, Stage
 
 from . import beds, contact_scenes, scenes
 
@@ -129,25 +129,8 @@ def test_the_native_bed_is_as_dense(code: str, records: Records, tmp_path: Path)
 FORCE_TOLERANCE = {"yade": 1e-12, "lammps": 1e-4, "liggghts": 1e-4}
 
 
-def carried() -> Scene:
-    """A sphere that slides on a floor, which is lifted for a while, loses friction and meets tilted gravity."""
-    whole = contact_scenes.mindlin(scenes.floor(), 0.4, "stages/rising")
-    softer = tuple(SetPair(replace(pair, friction=0.1)) for pair in whole.pairs)
-    lift = SetMotion(0, Motion("prescribed", (0.0, 0.0, 2e-3)))
-    stages = (
-        Stage("slide", 4000),
-        Stage("lift", 1000, (lift,)),
-        Stage("rest", 1000, (SetMotion(0, Motion("fixed")),)),
-        Stage("smooth", 2000, softer),
-        Stage("tilt", 2000, (SetGravity((3.0, 0.0, -9.0)),)),
-    )
-    # Pressed in by about its weight: in contact all the time.
-    ball = replace(whole.particles[0], velocity=(0.1, 0.0, 0.0), position=(1e-3, 5e-4, 5e-3 - 5.3e-6))
-    return replace(whole, particles=(ball,), stages=stages, steps=10000, output_every=20)
-
-
 def test_a_floor_moves_stops_loses_friction_and_gravity_turns(code: str, tmp_path: Path) -> None:
-    scene = carried()
+    scene = beds.carried()
     (record,) = ADAPTERS[code].run([ADAPTERS[code].deck(scene)], tmp_path / "code", TIME_LIMIT)
     assert isinstance(record, RunRecord), record
     mirror = engine.run(ADAPTERS[code].mirror(scene), tmp_path / "mirror")
