@@ -19,7 +19,7 @@ from cross_check.scene import Scene
 def _tangential(scene: Scene) -> TangentialOptions:
     """A cap on elastic and damping parts together, full radii in the slip velocity, and in the torque of walls.
 
-    Evaluated before the first step, a spring is not stretched: a contact whose dashpot alone passes the cap does nothing.
+    Evaluated before the first step, no spring is stretched: where a dashpot alone passes the cap, nothing acts.
     """
     return TangentialOptions(
         history=history(scene),

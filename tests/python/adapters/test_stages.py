@@ -24,8 +24,8 @@ Records = dict[str, RunRecord]
 
 # Largest difference between the sum of the contact forces on a particle and its force, over the largest contact force.
 # YADE writes the forces that it used. The others evaluate them anew, with the velocities of the step: LAMMPS differs by
-# its dashpots, LIGGGHTS also where a tangential spring slid, to which it then adds the whole dashpot. In a bed that moves
-# without friction nothing is left but that dashpot, so that only its settled beds are judged.
+# its dashpots, LIGGGHTS also where a tangential spring slid, to which it then adds the whole dashpot. In a bed that
+# moves without friction nothing is left but that dashpot, so that only its settled beds are judged.
 CONTACT_TOLERANCE = {"yade": 1e-12, "lammps": 0.03, "liggghts": 0.15}
 
 
