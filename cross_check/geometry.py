@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cross_check.record import Array
-from cross_check.scene import Cylinder, Domain, Shape
+from cross_check.scene import Cylinder, Domain, Scene, Shape
 
 
 def nearest(domain: Domain, branch: Array) -> Array:
@@ -30,3 +30,21 @@ def facing(shape: Shape, centers: Array) -> tuple[Array, Array]:
 def effective_radius(shape: Shape, radius: float) -> float:
     """R* [m] of a sphere of `radius` [m] at a plane, or inside a cylinder: R Rc / (Rc - R)."""
     return radius * shape.radius / (shape.radius - radius) if isinstance(shape, Cylinder) else radius
+
+
+def starts_in_touch(scene: Scene) -> bool:
+    """Whether any contact is there at the start."""
+    center = np.array([particle.position for particle in scene.particles])
+    radius = np.array([particle.radius for particle in scene.particles])
+    if any(bool(np.any(facing(body.shape, center)[1] < radius)) for body in scene.bodies):
+        return True
+    order = np.argsort(center[:, 0], kind="stable")
+    center, radius = center[order], radius[order]
+    # Along x every particle meets the next one, the one after it and so on, until all are out of reach.
+    for shift in range(1, len(center)):
+        branch = nearest(scene.domain, np.roll(center, -shift, axis=0) - center)
+        if float(np.abs(branch[:, 0]).min()) > 2.0 * float(radius.max()):
+            return False
+        if np.any(np.linalg.norm(branch, axis=1) < np.roll(radius, -shift) + radius):
+            return True
+    return False

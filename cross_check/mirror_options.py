@@ -21,7 +21,8 @@ class TangentialOptions:
     """How a code treats its tangential spring.
 
     `history`: displacement | force | force_rescaled. `rotation`: rigid | projection | projection_rescaled |
-    small_angles | fixed. `order`: rotate_first | increment_first. `increment`: present | mean. `cap`: total | elastic.
+    small_angles | fixed. `order`: rotate_first | increment_first. `increment`: present | mean. `cap`: total |
+    total_when_stretched | elastic.
     `friction`: total | without_adhesion | pull_off_added | twice_pull_off.
     """
 
@@ -37,7 +38,11 @@ class TangentialOptions:
 
 @dataclass(frozen=True)
 class RollingOptions:
-    """How a code treats its rolling spring; `limit`: effective_radius | mean_radius | while_pressed | unlimited."""
+    """How a code treats its rolling spring; `limit`: effective_radius | mean_radius | while_pressed | unlimited.
+
+    `setup_step` [s] is the time over which the spring grows, and then forgets it, where forces are evaluated before the
+    first step.
+    """
 
     stiffness: RollingStiffness
     limit: str
@@ -47,6 +52,7 @@ class RollingOptions:
     cap: str
     torsion: bool
     stretched_at_walls: bool
+    setup_step: float = 0.0
 
 
 @dataclass(frozen=True)

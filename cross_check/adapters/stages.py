@@ -59,11 +59,11 @@ def movers(scene: Scene) -> set[int]:
 def gravities(scene: Scene) -> Array:
     """Gravity at every sampled step, shape (T, 1, 3) [m/s2]; a change acts after the sample of its step."""
     if not scene.stages:
-        return np.array(scene.gravity).reshape(1, 1, 3)
+        return np.array([[scene.gravity]])
     ends = scene.stage_ends()
     values = [scene.gravity, *(scene.at_stage(index).gravity for index in range(len(ends)))]
     at = [0 if step == 0 else 1 + bisect_left(ends, step) for step in scene.sample_steps]
-    return np.array([values[index] for index in at]).reshape(-1, 1, 3)
+    return np.array([[values[index]] for index in at])
 
 
 def changed_rows(segment: Segment, rows: list[Row], before: list[Row]) -> list[Row]:

@@ -14,6 +14,7 @@ from cross_check.contact_model import (
     LudingHysteretic,
     Mindlin,
 )
+from cross_check.geometry import starts_in_touch
 from cross_check.mirror_options import (
     Arms,
     RollingOptions,
@@ -100,7 +101,9 @@ def _tangential_choices(scene: Scene) -> dict[str, Any]:
         # A displacement has no increment of force.
         "increment": options.increment if varies and options.history != "displacement" else "mean" if varies else None,
         "rotation": (options.rotation, options.order) if _turns(scene) else None,
-        "cap": options.cap if shear else None,
+        "cap": (options.cap if starts_in_touch(scene) else options.cap.removesuffix("_when_stretched"))
+        if shear
+        else None,
         "friction": options.friction if _adhesive(scene) else None,
         "arms": options.wall_arms if scene.bodies else options.pair_arms,
     }

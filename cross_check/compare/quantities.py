@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cross_check.compare import adhesion, oblique, path_quantities, rolling
+from cross_check.compare import adhesion, oblique, path_quantities, rolling, snapshots
 from cross_check.compare.quantity import Impact, Quantity, Undefined, impact
 from cross_check.record import DISSIPATED, Array, RunRecord
 from cross_check.scene import Scene
@@ -103,5 +103,6 @@ QUANTITIES = {
         *oblique.QUANTITIES,
         *rolling.QUANTITIES,
         *adhesion.QUANTITIES,
+        *snapshots.QUANTITIES,
     )
 }

@@ -16,6 +16,7 @@
 //! |---|---|
 //! | total | on e + d: the sum is scaled to L, the damping stays, e = sum - d |
 //! | elastic | on e: e is scaled to L and d dropped; below the limit d is added without a cap |
+//! | `total_when_stretched` | the same, but an unstretched spring that should slide gives neither force (LAMMPS, at setup) |
 //! | `total_along_rate` | on e + d: the sum is -L u / abs(u), e = sum - d (LAMMPS, twisting) |
 //!
 //! Energies of a step, exact for a linear change of e over the step (mean forces times increments):
@@ -59,6 +60,8 @@ pub enum Cap {
     Total,
     /// The elastic part.
     Elastic,
+    /// Both together; nothing acts where the spring is not stretched at all and the dashpot alone passes the limit.
+    TotalWhenStretched,
     /// Both together, directed against the rate.
     TotalAlongRate,
 }
@@ -169,8 +172,9 @@ impl Rules {
             Cap::TotalAlongRate => step.rate * -(1.0 / step.rate.norm().max(f64::MIN_POSITIVE)),
             _ => tested * (1.0 / squared.sqrt()),
         };
-        let capped = direction * step.limit;
-        let dropped = sliding && self.cap == Cap::Elastic;
+        let unstretched = self.cap == Cap::TotalWhenStretched && remembered.norm_squared() == 0.0;
+        let capped = direction * if unstretched { 0.0 } else { step.limit };
+        let dropped = sliding && (self.cap == Cap::Elastic || unstretched);
         let damping = choose(dropped, &Vector::zeros(), &dashpot);
         let elastic = choose(sliding, &(capped - damping), &trial);
         let force = choose(sliding, &capped, &(trial + dashpot));

@@ -107,7 +107,9 @@ def _change(segment: Segment, before: _Part, part: _Part) -> tuple[list[str], li
             again = [line for line in wall.commands if line.startswith("fix ") and (line in new or " tsuji" in line)]
             new += [line for line in again if line not in new]
             key = f"stages.{segment.name}.bodies.{wall.body.name}"
-            rows += [Row(key, "made anew", f"fix {wall.fix}", "", "-", "drops the springs of its contacts") for _ in again]
+            rows += [
+                Row(key, "made anew", f"fix {wall.fix}", "", "-", "drops the springs of its contacts") for _ in again
+            ]
     note = "forces of the step evaluated anew, springs as they are" if setup else "goes on without a setup"
     head = [f"# stage {word(segment.name)}: {note}"] if segment.name else []
     return head + commands + new, rows, setup

@@ -17,13 +17,16 @@ from cross_check.scene import Scene
 
 
 def _tangential(scene: Scene) -> TangentialOptions:
-    """A cap on elastic and damping parts together, full radii in the slip velocity, and in the torque of walls."""
+    """A cap on elastic and damping parts together, full radii in the slip velocity, and in the torque of walls.
+
+    Evaluated before the first step, no spring is stretched: where a dashpot alone passes the cap, nothing acts.
+    """
     return TangentialOptions(
         history=history(scene),
         rotation="projection_rescaled",
         order="rotate_first",
         increment="present",
-        cap="total",
+        cap="total_when_stretched",
         friction="total",
         pair_arms=Arms("radius", "mid_overlap"),
         wall_arms=Arms("radius", "radius"),
@@ -31,7 +34,7 @@ def _tangential(scene: Scene) -> TangentialOptions:
 
 
 def _rolling(scene: Scene) -> RollingOptions | None:
-    """A rolling displacement that is projected and stretched; the cap holds spring and dashpot together."""
+    """A rolling displacement that is projected and stretched; the cap holds spring and dashpot together, as above."""
     law = contact_laws.rolling(scene)
     if law is None:
         return None
@@ -41,7 +44,7 @@ def _rolling(scene: Scene) -> RollingOptions | None:
         dashpot=law.dashpot,
         history="displacement",
         rotation="projection_rescaled",
-        cap="total",
+        cap="total_when_stretched",
         torsion=False,
         stretched_at_walls=False,
     )

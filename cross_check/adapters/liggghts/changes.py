@@ -1,4 +1,4 @@
-"""What changes between the stages of a run in LIGGGHTS: properties and gravity again, walls taken away and made anew."""
+"""What changes between the stages of a run in LIGGGHTS: properties and gravity typed again, walls made anew."""
 
 from __future__ import annotations
 

@@ -37,6 +37,8 @@ def _rolling(scene: Scene) -> RollingOptions | None:
         cap="elastic",
         torsion=law.twisting.kind == "joint",
         stretched_at_walls=True,
+        # The evaluation before the first step stretches rolling springs, though not tangential ones, and forgets it.
+        setup_step=scene.time_step,
     )
 
 

@@ -6,6 +6,7 @@ ones.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, replace
 
@@ -38,7 +39,7 @@ def vector(values: Vector) -> str:
 def changes(scene: Scene) -> list[Change]:
     """What changes at the beginning of each stage. Raises NotComparable for values that YADE cannot change."""
     parts = segments(scene)
-    found = [_change(after, before) for before, after in zip(parts[:-1], parts[1:], strict=True)]
+    found = [_change(after, before) for before, after in itertools.pairwise(parts)]
     return [change for change in found if change.entries]
 
 
@@ -83,9 +84,7 @@ def _pairs(stage: str, old: Scene, new: Scene) -> list[tuple[str, str]]:
     contacts: list[str] = []
     if laws.frictional(new) and [pair.friction for pair in before] != [pair.friction for pair in after]:
         matchers.append(f'"frictAngle": {_values(after, [math.atan(laws.friction(new, pair)) for pair in after])}')
-        contacts.append(
-            f'"tangensOfFrictionAngle": {_values(after, [laws.friction(new, pair) for pair in after])}'
-        )
+        contacts.append(f'"tangensOfFrictionAngle": {_values(after, [laws.friction(new, pair) for pair in after])}')
     if laws.elastic(new) and [pair.damping_ratio for pair in before] != [pair.damping_ratio for pair in after]:
         values = _values(after, [betan_of(pair.damping_ratio) for pair in after])
         for name in ("betan", "betas") if laws.frictional(new) else ("betan",):

@@ -114,9 +114,7 @@ def _start(scene: Scene) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _text(
-    scene: Scene, rows: list[Row], words: laws.Words, planes: list[Plane], stages: list[changes.Change]
-) -> str:
+def _text(scene: Scene, rows: list[Row], words: laws.Words, planes: list[Plane], stages: list[changes.Change]) -> str:
     return render(
         Path(__file__).with_name("scene.py.j2"),
         {

@@ -63,6 +63,10 @@ pub struct ElasticPlasticRolling {
     pub torsion: bool,
     /// Whether the spin at a wall is stretched (LIGGGHTS).
     pub stretched_at_walls: bool,
+    /// Time over which the spring grows where forces are evaluated before the first step [s]: LIGGGHTS takes a step, which
+    /// it then forgets.
+    #[serde(default)]
+    pub setup_step: f64,
 }
 
 impl ElasticPlasticRolling {
@@ -78,6 +82,7 @@ impl ElasticPlasticRolling {
             cap: Cap::Total,
             torsion: false,
             stretched_at_walls: false,
+            setup_step: 0.0,
         }
     }
 
@@ -111,6 +116,7 @@ impl ElasticPlasticRolling {
             dashpot: Dashpot::PerRadiusSquared { value: g },
             history: History::Displacement,
             rotation: Rotation::ProjectionRescaled,
+            cap: Cap::TotalWhenStretched,
             ..Self::plain()
         }
     }
@@ -151,6 +157,9 @@ impl MomentLaw for ElasticPlasticRolling {
         dt: f64,
         history: &mut Memory,
     ) -> MomentState {
+        let mut forgotten = *history;
+        let setup = dt == 0.0 && self.setup_step > 0.0;
+        let (dt, history) = if setup { (self.setup_step, &mut forgotten) } else { (dt, history) };
         let direction = contact.geometry.normal;
         let spin = if self.stretched_at_walls { super::liggghts_spin(contact) } else { super::relative_spin(contact) };
         let rate = if self.torsion { spin } else { spin - direction * spin.dot(&direction) };

@@ -5,7 +5,7 @@
 //! | plain | rescaled force | rigid | rotate first | total | R - d/2, R - d/2 | R - d/2, R - d/2 |
 //! | LIGGGHTS | displacement | projection | increment first | elastic | R - d/2, R - d/2 | R - d/2, R - d/2 |
 //! | YADE | force | small angles | rotate first | elastic | R - d/2, R - d/2 | R - d, R - d (`Wall`) |
-//! | LAMMPS | displacement or force | `projection_rescaled` | rotate first | total | R, R - d/2 | R, R |
+//! | LAMMPS | displacement or force | `projection_rescaled` | rotate first | `total_when_stretched` | R, R - d/2 | R, R |
 
 use serde::{Deserialize, Serialize};
 
@@ -169,6 +169,7 @@ impl Options {
             history,
             rotation: Rotation::ProjectionRescaled,
             increment: Increment::Present,
+            cap: Cap::TotalWhenStretched,
             friction: Friction::Total,
             pair_arms: ArmRule { slip: Arm::Radius, torque: Arm::MidOverlap },
             wall_arms: ArmRule { slip: Arm::Radius, torque: Arm::Radius },

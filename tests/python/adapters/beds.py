@@ -102,7 +102,18 @@ def silo(layers: int, across: int, half: float, settle: int, after: int, every: 
     return bed(particles, half, stages, "bed/silo", every)
 
 
-def tilted(whole: Scene) -> Scene:
-    """The bed with gravity tilted in its second stage."""
-    first, second = whole.stages
-    return replace(whole, stages=(first, replace(second, actions=(SetGravity((2.0, 0.0, -9.0)),))), variant="bed/tilted")
+def carried() -> Scene:
+    """A sphere that slides on a floor, which is lifted for a while, loses friction and meets tilted gravity."""
+    whole = contact_scenes.mindlin(scenes.floor(), 0.4, "stages/rising")
+    softer = tuple(SetPair(replace(pair, friction=0.1)) for pair in whole.pairs)
+    lift = SetMotion(0, Motion("prescribed", (0.0, 0.0, 2e-3)))
+    stages = (
+        Stage("slide", 4000),
+        Stage("lift", 1000, (lift,)),
+        Stage("rest", 1000, (SetMotion(0, Motion("fixed")),)),
+        Stage("smooth", 2000, softer),
+        Stage("tilt", 2000, (SetGravity((3.0, 0.0, -9.0)),)),
+    )
+    # Pressed in by about its weight: in contact all the time.
+    ball = replace(whole.particles[0], velocity=(0.1, 0.0, 0.0), position=(1e-3, 5e-4, 5e-3 - 5.3e-6))
+    return replace(whole, particles=(ball,), stages=stages, steps=10000, output_every=20)

@@ -10,7 +10,7 @@ import pytest
 from cross_check.adapters import ADAPTERS
 from cross_check.scene import Scene
 
-from . import scenes
+from . import beds, scenes
 
 SNAPSHOTS = Path(__file__).parent / "snapshots"
 SCENES = {
@@ -19,6 +19,8 @@ SCENES = {
     "floor": scenes.floor(),
     "corner": scenes.corner(),
     "rising": scenes.rising_floor(),
+    "stages": beds.carried(),
+    "bed": beds.silo(3, 5, 0.0112, 1000, 1000, 100),
 }
 
 
