@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import json
+import os
 import shutil
 from pathlib import Path
 from typing import Any
@@ -113,6 +115,32 @@ def test_doctor_says_how_to_get_what_is_missing(monkeypatch: pytest.MonkeyPatch)
     without_codes(monkeypatch)
     parts = {part["name"]: part for part in json.loads(call("doctor").output)}
     assert "apt-get install yade" in parts["yade"]["advice"]
+
+
+def test_doctor_tells_optional_python_parts_and_cores(monkeypatch: pytest.MonkeyPatch) -> None:
+    there = importlib.metadata.version
+
+    def version(name: str) -> str:
+        if name in ("pandas", "meshio"):
+            raise importlib.metadata.PackageNotFoundError(name)
+        return there(name)
+
+    monkeypatch.setattr(importlib.metadata, "version", version)
+    monkeypatch.setattr(os, "cpu_count", lambda: 8)
+
+    def usable(process: int) -> set[int]:
+        assert process == 0
+        return {0, 1, 2}
+
+    monkeypatch.setattr(os, "sched_getaffinity", usable, raising=False)
+    parts = {part["name"]: part for part in json.loads(call("doctor").output)}
+    assert not parts["meshio"]["present"]
+    assert parts["meshio"]["advice"] == "pip install meshio"
+    assert parts["pandas"]["advice"].startswith("optional, for tables")
+    assert parts["numpy"]["version"] == there("numpy")
+    assert {"vtk", "nbclient", "ovito", "mpi"} <= set(parts)
+    assert parts["cores"]["version"].startswith("3 of 8")
+    assert "--jobs 3" in parts["cores"]["advice"]
 
 
 def test_decks_of_a_file_anywhere_are_the_same_bytes_twice(tmp_path: Path) -> None:
