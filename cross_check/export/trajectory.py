@@ -17,7 +17,7 @@ from cross_check.scene import Body, Scene, Shape
 Index = NDArray[np.int64]
 
 CONTACT_COLUMNS = ("contact_start", "contact_pair", "contact_force")
-PLAIN = ("step", "time", "position", *CONTACT_COLUMNS)
+PLAIN = ("step", "time", "position")
 #: A contact longer than this multiple of the sum of the radii is one across a periodic face [-].
 LONGEST_CONTACT = 2.0
 
@@ -126,7 +126,7 @@ class Trajectory:
             found.append(Field("material", "-", np.broadcast_to(materials, (self.samples, self.count))))
         shapes = ((self.samples, self.count), (self.samples, self.count, 3))
         for name, column in self.record.columns.items():
-            if name not in PLAIN and not name.startswith(("body_", "energy_")) and column.shape in shapes:
+            if name not in PLAIN and not name.startswith(("body_", "energy_", "contact_")) and column.shape in shapes:
                 found.append(Field(name, UNITS.get(name, "-"), column))
         return found
 
@@ -139,7 +139,7 @@ class Trajectory:
         found: list[Series] = []
         for name, column in self.record.columns.items():
             unit = UNITS.get(name, "-")
-            if name in PLAIN:
+            if name in PLAIN or name.startswith("contact_"):
                 continue
             if column.ndim == 1:
                 found.append(Series(name, unit, column))

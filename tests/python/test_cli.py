@@ -102,6 +102,17 @@ def test_the_matrix_of_a_part_of_the_codes_is_complete(tmp_path: Path, monkeypat
     assert {item["right"]["source"] for item in verdicts(tmp_path / "out") if item["check"] == "plain"} == {"yade"}
 
 
+def test_a_case_that_is_no_impact_has_figures_of_what_it_compares(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert call("run", "free-fall", "--out", str(out)).exit_code == AS_EXPECTED
+    drawn = [path.read_text() for path in (out / "report" / "figures").glob("*.svg")]
+    assert len(drawn) == 1
+    page = (out / "report" / "index.html").read_text()
+    assert "Largest displacement over time" in page
+    for code in ADAPTERS:
+        assert f"{code} - native[{code}]" in page
+
+
 def test_list_and_doctor_answer_in_json() -> None:
     listed = json.loads(call("list").output)
     assert "standard" in listed["suites"]

@@ -16,6 +16,7 @@ from small_bed import Bed
 from cross_check import export
 from cross_check.export.trajectory import Trajectory
 from cross_check.geometry import nearest
+from cross_check.record import read
 
 TYPES = {"Float64": "<f8", "Int64": "<i8"}
 
@@ -94,6 +95,15 @@ def test_contacts_run_between_nearest_images_and_to_the_walls(bed: Bed, folder: 
             assert np.allclose(nearest(bed.scene.domain, position[second] - line[1]), 0, atol=1e-15)
     assert crossing > 0
     assert walls > 0
+
+
+def test_pieces_of_a_longer_run_are_removed(bed: Bed, tmp_path: Path) -> None:
+    (tmp_path / "particles").mkdir()
+    for name in ("000099.vtp", "mine.vtp"):
+        (tmp_path / "particles" / name).write_text("old")
+    export.write(read(bed.folder), "pvd", tmp_path)
+    left = {path.name for path in (tmp_path / "particles").iterdir()}
+    assert left == {"mine.vtp"} | {f"{sample:06}.vtp" for sample in range(11)}
 
 
 def test_the_force_of_a_wall_points_away_from_it(bed: Bed) -> None:
