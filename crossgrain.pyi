@@ -5,6 +5,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 __version__: str
+OBSERVABLES: str
+"""Hash of the functions that measure records."""
 
 def load_case(path: str | Path, overrides: Sequence[str] = ...) -> str:
     """Reads, checks and expands a case file: JSON with the keys `case`, `variants` and `scenes`."""

@@ -170,17 +170,18 @@ def _native(options: Options, cache: Path, folder: Path, steps: int) -> Use:
     return spend(native_command(arguments), folder, options.time_limit)
 
 
-def deck(contestant: Contestant, bed: dict[str, Any], folder: Path, steps: int) -> str:
-    """The deck of `steps` steps from the bed in `folder`."""
-    young, poisson = float(bed["young"]), float(bed["poisson"])
-    # The words of gran/hertz/history: Kn = 4/3 E* and Kt = 8 G*, of like solids.
-    normal = 4.0 / 3.0 * young / (2.0 * (1.0 - poisson**2))
-    tangential = 8.0 * young / (4.0 * (2.0 - poisson) * (1.0 + poisson))
+def deck(contestant: Contestant, state: Path, steps: int) -> str:
+    """The deck of `steps` steps from the bed in the folder `state`, with the mixed values that the engine formed."""
+    bed: dict[str, Any] = json.loads((state / "bed.json").read_text())
+    pair: dict[str, Any] = json.loads((state / "pair.json").read_text())
+    # The words of gran/hertz/history: Kn = 4/3 E* and Kt = 8 G*.
+    normal = 4.0 / 3.0 * float(pair["effective_young"])
+    tangential = 8.0 * float(pair["effective_shear"])
     values = {key: number(float(bed[key])) for key in ("young", "poisson", "density", "restitution", "friction")}
     values |= {key: number(float(bed[key])) for key in ("edge", "radius", "time_step")}
     values |= {"normal": number(normal), "tangential": number(tangential), "dashpot": number(LAMMPS_DASHPOT)}
     values |= {"skin": number(0.4 * float(bed["radius"])), "steps": str(steps)}
-    values |= {"state": folder.name, "data": "bed.data", "columns": "bed.npz"}
+    values |= {"state": state.name, "data": "bed.data", "columns": "bed.npz"}
     return render(DECKS / f"{contestant.deck}.j2", dict(values))
 
 
@@ -188,8 +189,7 @@ def _external(contestant: Contestant, options: Options, state: Path, folder: Pat
     path = programs.executable(contestant.variable, contestant.program)
     if path is None:
         raise BenchError(f"{contestant.code} is gone")
-    bed = json.loads((state / "bed.json").read_text())
-    (folder / contestant.deck).write_text(deck(contestant, bed, state, steps))
+    (folder / contestant.deck).write_text(deck(contestant, state, steps))
     # LIGGGHTS takes no comment behind a heading.
     (folder / "bed.data").write_text((state / "bed.data").read_text().replace("Atoms # sphere", "Atoms"))
     if not (folder / "bed.npz").exists():

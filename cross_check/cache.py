@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import shutil
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 from platformdirs import user_cache_path
 
+import crossgrain
 from cross_check import PACKAGE, engine
 from cross_check.adapters.interface import Deck
+from cross_check.measured import Measured
+from cross_check.measured import read as read_measured
 from cross_check.record import Code, RecordError, RunRecord, read
 from cross_check.scene import Scene
 
@@ -34,6 +39,11 @@ def code_key(deck: Deck, code: Code) -> str:
     """Key of an external run: the deck, the program, and the sources of the harness that run and read it."""
     sources = [*sorted((PACKAGE / "adapters").rglob("*.py")), PACKAGE / "record.py"]
     return _digest(deck.code, deck.hash, code.version, code.package, *(path.read_text() for path in sources))
+
+
+def measured_key(run: str, scene: Scene) -> str:
+    """Key of what was measured of the run with a key: the observables, and the functions that measure."""
+    return _digest("measured", run, json.dumps(scene.observables, sort_keys=True), crossgrain.OBSERVABLES)
 
 
 class Cache:
@@ -59,12 +69,31 @@ class Cache:
             shutil.rmtree(folder, ignore_errors=True)
             return None
 
+    def measured(self, key: str) -> Measured | None:
+        """The measured record of a key, or None; a damaged entry is dropped."""
+        folder = self.folder(key)
+        if not folder.is_dir():
+            return None
+        try:
+            return read_measured(folder)
+        except RecordError:
+            shutil.rmtree(folder, ignore_errors=True)
+            return None
+
     def put(self, key: str, record: RunRecord) -> Path:
-        """Stores a record and returns its folder: written beside its place and then renamed, never seen half."""
+        """Stores a record and returns its folder."""
+        return self._put(key, lambda folder: record.write(folder, compress=False))
+
+    def put_measured(self, key: str, record: Measured) -> Path:
+        """Stores a measured record and returns its folder."""
+        return self._put(key, record.write)
+
+    def _put(self, key: str, write: Callable[[Path], None]) -> Path:
+        """The folder of a key: written beside its place and then renamed, never seen half."""
         target = self.folder(key)
         target.parent.mkdir(parents=True, exist_ok=True)
         scratch = Path(tempfile.mkdtemp(prefix="new-", dir=target.parent))
-        record.write(scratch, compress=False)
+        write(scratch)
         try:
             scratch.rename(target)
         except OSError:  # another run was faster: its record is the same

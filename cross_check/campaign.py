@@ -9,17 +9,19 @@ import shutil
 import sys
 import time
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
 
-from cross_check import engine, report, runs
+from cross_check import engine, measured, report, runs
 from cross_check.adapters import ADAPTERS
 from cross_check.adapters.interface import Deck
+from cross_check.bed_plots import bed_curves, bed_seeds
 from cross_check.cache import Cache
 from cross_check.compare.checks import compare
 from cross_check.compare.differences import known
+from cross_check.compare.ensemble_checks import ENSEMBLE_CHECKS, beds, compare_ensembles
 from cross_check.compare.expectations import expect, rules
 from cross_check.compare.outcome import Outcome
 from cross_check.compare.verdicts import FULL_ONLY, Comparison
@@ -59,8 +61,11 @@ def comparisons(finished: Finished, expected: Path | None = None) -> list[Compar
     for case in finished.cases:
         for variant in case.variants:
             outcomes = finished.results[variant.scenes[0].name]
-            for gate in case.gates:
-                found += compare(variant.scenes[0], gate, outcomes, finished.codes)
+            for gate in variant.gates:
+                if gate.check not in ENSEMBLE_CHECKS:
+                    found += compare(variant.scenes[0], gate, outcomes, finished.codes)
+        for bed in beds(case, finished.results, finished.codes):
+            found += compare_ensembles(bed)
     complete = finished.codes == tuple(ADAPTERS)
     table = rules() if expected is None else rules(expected)
     return expect(found, table, {case.name for case in finished.cases}, complete)
@@ -98,8 +103,14 @@ def write(
                 for case in finished.cases
                 for name in drawn(case, finished.results)
                 for item in _figures(case, name, finished)
+            ]
+            + [item for case in finished.cases for item in bed_curves(case, finished.results, finished.codes)],
+            sweeps=[
+                plot
+                for case in finished.cases
+                for draw in (sweeps, bed_seeds)
+                for plot in draw(case, finished.results, finished.codes)
             ],
-            sweeps=[plot for case in finished.cases for plot in sweeps(case, finished.results, finished.codes)],
             environment=environment(),
             left_out=_left_out(finished),
             known_differences={name: str(entry["explanation"]).strip() for name, entry in known().items()},
@@ -133,13 +144,12 @@ def _info(case: Case) -> CaseInfo:
 
 
 def _provenance(outcome: Outcome) -> SourceRun:
-    scene, record = outcome.scene, outcome.record
-    if record is None:
+    scene, header = outcome.scene, outcome.header
+    if header is None:
         return SourceRun(
             scene.name, outcome.source, "", "", "", outcome.origin, outcome.deck.hash if outcome.deck else "", "", 0.0,
             scene.steps, scene.time_step, outcome.verdict,
         )  # fmt: skip
-    header = record.header
     return SourceRun(
         scene.name, outcome.source, header.code.name, header.code.version, header.code.package, outcome.origin,
         header.deck_hash, header.machine, header.wall_time, header.steps, header.time_step, outcome.note,
@@ -171,7 +181,7 @@ def keep(finished: Finished, folder: Path) -> None:
                     "scene": name,
                     "source": source,
                     "refinement": refinement,
-                    "folder": str(place) if outcome.record is not None else None,
+                    "folder": str(place) if outcome.header is not None else None,
                     "verdict": outcome.verdict,
                     "origin": outcome.origin,
                 }
@@ -249,8 +259,12 @@ def _reload(entry: dict[str, str | None], source: str, scene: Scene, folder: Pat
         if source == f"native[{code}]" and entry["folder"] is not None:
             scene = other.mirror(scene)
     place = None if entry["folder"] is None else folder / entry["folder"]
-    record = None if place is None else runs.labelled(read(place), source)
-    return Outcome(source, scene, record, entry["verdict"] or "", entry["origin"] or "", deck, place)
+    outcome = Outcome(source, scene, None, entry["verdict"] or "", entry["origin"] or "", deck, place)
+    if place is None:
+        return outcome
+    if (place / measured.FILE).is_file():
+        return replace(outcome, measured=measured.read(place))
+    return replace(outcome, record=runs.labelled(read(place), source))
 
 
 def write_deck(deck: Deck, folder: Path) -> None:

@@ -127,6 +127,7 @@ def deck_(case: str, code: str, out: Path, overrides: tuple[str, ...]) -> None:
 @click.option("--codes", default=",".join(ADAPTERS), show_default=True, help="Codes to run, joined by commas.")
 @click.option("--jobs", type=click.IntRange(min=1), default=None, help="Runs at a time; the number of cores if absent.")
 @click.option("--full", is_flag=True, help="Runs the variants that the quick form of a suite leaves out, too.")
+@click.option("--seeds", type=click.IntRange(min=1), default=None, help="Seeds of every ensemble; all if absent.")
 @click.option("--live", is_flag=True, help="Makes every run now: neither the cache nor recorded runs are used.")
 @click.option("--any-version", is_flag=True, help="Runs versions for which the translation is not proved, too.")
 @click.option("--expected", type=click.Path(path_type=Path), default=None, help="Expected verdicts of own cases.")
@@ -137,6 +138,7 @@ def run_(
     codes: str,
     jobs: int | None,
     full: bool,
+    seeds: int | None,
     live: bool,
     any_version: bool,
     expected: Path | None,
@@ -153,6 +155,8 @@ def run_(
         options = replace(options, jobs=jobs)
     with _refusing():
         suite, cases = suites.select(what)
+        if seeds is not None:
+            cases = [suites.with_seeds(case, seeds) for case in cases]
         out.mkdir(parents=True, exist_ok=True)
         with (
             _progress(runs.count(cases, options)) as progress,

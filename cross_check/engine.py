@@ -58,6 +58,7 @@ class Variant:
     points: tuple[Point, ...]
     scenes: tuple[Scene, ...]
     full_only: bool = False
+    gates: tuple[Gate, ...] = ()
 
     @property
     def member(self) -> str:
@@ -107,7 +108,13 @@ def load_case(path: Path, overrides: list[str] | None = None) -> Case:
     for item in raw["scenes"]:
         members.setdefault(item["variant"], {}).setdefault(item["seed"], []).append(from_json(item))
     variants = tuple(
-        Variant(item["name"], tuple(Point(**point) for point in item["points"]), tuple(scenes), item["full_only"])
+        Variant(
+            item["name"],
+            tuple(Point(**point) for point in item["points"]),
+            tuple(scenes),
+            item["full_only"],
+            tuple(_gate(gate) for gate in item["gates"]),
+        )
         for item in raw["variants"]
         for scenes in members[item["name"]].values()
     )

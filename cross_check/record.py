@@ -23,6 +23,9 @@ UNITS = {
     "force": "N",
     "torque": "N m",
     "body_force": "N",
+    "contact_start": "-",
+    "contact_pair": "-",
+    "contact_force": "N",
     "energy_kinetic": "J",
     "energy_elastic": "J",
     "energy_gravity": "J",
@@ -34,6 +37,7 @@ UNITS = {
     "energy_body_work": "J",
     "energy_entered": "J",
 }
+CONTACTS = ("contact_start", "contact_pair", "contact_force")
 DISSIPATED = ("energy_viscous", "energy_frictional", "energy_rolling", "energy_plastic", "energy_carried")
 REQUIRED = ("step", "time", "position", "velocity", "angular_velocity", "force", "torque")
 
@@ -128,16 +132,34 @@ class RunRecord:
         for name, column in self.columns.items():
             if name not in UNITS:
                 raise RecordError(f"{where}: unknown column {name} (known: {', '.join(UNITS)})")
-            if len(column) != samples:
+            if name not in CONTACTS and len(column) != samples:
                 raise RecordError(f"{where}: column {name} has {len(column)} samples, step has {samples}")
             if not np.all(np.isfinite(column)):
                 bad = int(np.argwhere(~np.isfinite(column))[0][0])
-                raise RecordError(f"{where}: column {name} is not a finite number at step {int(self.step[bad])}")
+                place = f"row {bad}" if name in CONTACTS else f"step {int(self.step[bad])}"
+                raise RecordError(f"{where}: column {name} is not a finite number at {place}")
         for name in REQUIRED[2:]:
             if self.columns[name].shape != (samples, count, 3):
                 raise RecordError(
                     f"{where}: column {name} has shape {self.columns[name].shape}, expected {(samples, count, 3)}"
                 )
+
+        if any(name in self.columns for name in CONTACTS):
+            self._check_contacts(where, samples, count)
+
+    def _check_contacts(self, where: str, samples: int, count: int) -> None:
+        """Contacts stand sample after sample: `contact_start` says where each sample begins."""
+        for name in CONTACTS:
+            if name not in self.columns:
+                raise RecordError(f"{where}: column {name} is missing")
+        start, pair, force = (self.columns[name] for name in CONTACTS)
+        if start.shape != (samples + 1,) or start[0] != 0 or np.any(np.diff(start) < 0):
+            raise RecordError(f"{where}: column contact_start does not rise from 0 over {samples + 1} entries")
+        rows = int(start[-1])
+        if pair.shape != (rows, 2) or force.shape != (rows, 3):
+            raise RecordError(f"{where}: contact columns have shapes {pair.shape} and {force.shape} for {rows} contacts")
+        if rows and (pair.min() < 0 or pair[:, 0].max() >= count or pair[:, 1].max() >= count + len(self.header.bodies)):
+            raise RecordError(f"{where}: column contact_pair names particles or bodies that are not there")
 
     def write(self, folder: Path, *, compress: bool = True) -> None:
         """Writes `record.json` and `columns.npz` into `folder`."""

@@ -10,6 +10,7 @@ from cross_check import reference, runs
 from cross_check.adapters import ADAPTERS
 from cross_check.cache import Cache
 from cross_check.engine import Case, CaseError
+from cross_check.measured import read as read_measured
 from cross_check.record import read
 
 
@@ -22,11 +23,14 @@ def refresh(cases: list[Case], progress: runs.Progress) -> tuple[int, int]:
     if not codes:
         raise CaseError("no external code is installed: there is nothing to record")
     with tempfile.TemporaryDirectory(prefix="crossgrain-") as work:
-        results = runs.execute(cases, runs.Options(codes=codes), Cache(), Path(work), progress)
+        results = runs.execute(cases, runs.Options(codes=codes, recorded=False), Cache(), Path(work), progress)
     kept: set[Path] = set()
     for outcomes in results.values():
         for (source, _), outcome in outcomes.items():
             if source not in codes or outcome.deck is None:
+                continue
+            if outcome.measured is not None:
+                kept.add(reference.store_measured(outcome.measured, outcome.scene))
                 continue
             if outcome.record is None:
                 raise CaseError(f"{outcome.scene.name}, {source}: {outcome.verdict}")
@@ -40,6 +44,10 @@ def _prune(codes: tuple[str, ...], names: set[str], kept: set[Path]) -> int:
     for code in codes:
         for path in (reference.FOLDER / "recorded" / code).glob("*/*/record.json"):
             if path.parent not in kept and read(path.parent).header.case in names:
+                shutil.rmtree(path.parent)
+                removed += 1
+        for path in (reference.FOLDER / "recorded" / code).glob("*/measured/*/measured.json"):
+            if path.parent not in kept and read_measured(path.parent).header.case in names:
                 shutil.rmtree(path.parent)
                 removed += 1
     return removed

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import importlib.util
+import json
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from cross_check import PACKAGE
+from cross_check.measured import FILE as MEASURED
+from cross_check.measured import Measured
+from cross_check.measured import read as read_measured
 from cross_check.record import RecordError, RunRecord, read
+from cross_check.scene import Scene
 
 FOLDER = PACKAGE.parent / "reference"
 
@@ -40,6 +47,34 @@ def recorded(code: str, deck_hash: str) -> Path | None:
     """Folder of the recorded run of a deck by the newest recorded version of a code, or None."""
     found = sorted((FOLDER / "recorded" / code).glob(f"*/{deck_hash}/record.json"))
     return found[-1].parent if found else None
+
+
+def _measured_folder(code: str, version: str, deck_hash: str, scene: Scene) -> Path:
+    """Where the measured record of a deck lies: what is measured is part of its name."""
+    observables = hashlib.blake2b(json.dumps(scene.observables, sort_keys=True).encode(), digest_size=4).hexdigest()
+    return FOLDER / "recorded" / code / version / "measured" / f"{deck_hash}-{observables}"
+
+
+def recorded_measured(code: str, deck_hash: str, scene: Scene) -> Path | None:
+    """Folder of the measured record of a deck by the newest recorded version of a code, or None."""
+    pattern = _measured_folder(code, "*", deck_hash, scene).relative_to(FOLDER)
+    found = sorted(FOLDER.glob(f"{pattern}/measured.json"))
+    return found[-1].parent if found else None
+
+
+def store_measured(record: Measured, scene: Scene) -> Path:
+    """Writes what was measured of a run into `reference/recorded` and returns its folder.
+
+    Lists of numbers at each time are left out, because they are large. A stored record of the same bits stays as it is.
+    """
+    header = record.header
+    scalars = {name: values for name, values in record.series.items() if values.ndim == 1}
+    kept = replace(record, series=scalars, units={name: record.units[name] for name in scalars})
+    folder = _measured_folder(header.source, slug(header.code.version), header.deck_hash, scene)
+    if (folder / MEASURED).is_file() and read_measured(folder).digest() == kept.digest():
+        return folder
+    kept.write(folder)
+    return folder
 
 
 def slug(version: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
 from dataclasses import asdict, dataclass, replace
 from typing import Any
@@ -11,6 +12,7 @@ from cross_check.contact_model import FREE, FRICTIONLESS, Model, NormalModel, mo
 from cross_check.mirror_options import Mirror, mirror_from_json, mirror_to_json, variant_to_json
 
 __all__ = [
+    "Action",
     "Body",
     "Course",
     "Domain",
@@ -24,7 +26,11 @@ __all__ = [
     "Pair",
     "Particle",
     "Scene",
+    "SetGravity",
+    "SetMotion",
+    "SetPair",
     "Shape",
+    "Stage",
     "Vector",
     "from_json",
 ]
@@ -154,8 +160,52 @@ class Drive:
 
 
 @dataclass(frozen=True)
+class SetPair:
+    """Gives a pair of materials new values."""
+
+    pair: Pair
+    do: str = "set_pair"
+
+
+@dataclass(frozen=True)
+class SetMotion:
+    """Gives a body, by index, another motion."""
+
+    body: int
+    motion: Motion
+    do: str = "set_motion"
+
+
+@dataclass(frozen=True)
+class SetGravity:
+    """Changes gravity [m/s2]."""
+
+    value: Vector
+    do: str = "set_gravity"
+
+
+Action = SetPair | SetMotion | SetGravity
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A part of the run: its name, number of steps, and what changes at its beginning.
+
+    Actions take effect after the sample of the step at which the stage begins, before the next step.
+    """
+
+    name: str
+    steps: int
+    actions: tuple[Action, ...] = ()
+
+
+@dataclass(frozen=True)
 class Scene:
-    """One runnable problem with nothing left to resolve."""
+    """One runnable problem with nothing left to resolve.
+
+    `stages` is empty where nothing changes but driven particles. `contacts` says whether samples hold contact forces.
+    `observables` are measures as the case states them, in SI (docs/case-keys.md).
+    """
 
     schema: int
     case: str
@@ -175,6 +225,37 @@ class Scene:
     bodies: tuple[Body, ...]
     particles: tuple[Particle, ...]
     drives: tuple[Drive, ...] = ()
+    stages: tuple[Stage, ...] = ()
+    contacts: bool = False
+    observables: tuple[dict[str, Any], ...] = ()
+
+    @property
+    def sample_steps(self) -> range:
+        """The sampled steps."""
+        return range(0, self.steps + 1, self.output_every)
+
+    def stage_ends(self) -> list[int]:
+        """Last step of every stage; that of the run where it has none."""
+        return list(itertools.accumulate(stage.steps for stage in self.stages)) or [self.steps]
+
+    def at_stage(self, index: int) -> Scene:
+        """The scene with the pairs, motions and gravity that hold in a stage; all else is that of the start."""
+        scene = self
+        for stage in self.stages[: index + 1]:
+            for action in stage.actions:
+                scene = scene.after(action)
+        return scene
+
+    def after(self, action: Action) -> Scene:
+        """The scene with what an action changes."""
+        if isinstance(action, SetGravity):
+            return replace(self, gravity=action.value)
+        if isinstance(action, SetMotion):
+            bodies = list(self.bodies)
+            bodies[action.body] = replace(bodies[action.body], motion=action.motion)
+            return replace(self, bodies=tuple(bodies))
+        old = self.pair(*action.pair.between)
+        return replace(self, pairs=tuple(action.pair if pair is old else pair for pair in self.pairs))
 
     @property
     def name(self) -> str:
@@ -204,8 +285,14 @@ class Scene:
         raw["mirror"] = mirror_to_json(self.mirror)
         if self.drives:
             raw["drives"] = [_drive_to_json(drive) for drive in self.drives]
-        else:
-            del raw["drives"]
+        if self.stages:
+            raw["stages"] = [
+                {"name": stage.name, "steps": stage.steps, "actions": [_action_to_json(item) for item in stage.actions]}
+                for stage in self.stages
+            ]
+        for optional in ("drives", "stages", "contacts", "observables"):
+            if not raw[optional]:
+                del raw[optional]
         return json.dumps(raw, sort_keys=True)
 
     def digest(self) -> str:
@@ -231,6 +318,15 @@ def _model_to_json(model: Model) -> dict[str, Any]:
     elif "stiffness" in raw["moments"]:
         parts = {name: variant_to_json(raw["moments"][name]) for name in ("stiffness", "dashpot", "twisting")}
         raw["moments"] |= parts
+    return raw
+
+
+def _action_to_json(action: Action) -> dict[str, Any]:
+    raw = asdict(action)
+    if isinstance(action, SetPair):
+        raw["pair"] = _pair_to_json(action.pair)
+    elif isinstance(action, SetMotion):
+        raw["motion"] = variant_to_json(raw["motion"])
     return raw
 
 
@@ -262,15 +358,24 @@ def _shape(item: dict[str, Any]) -> Shape:
     raise ValueError(f"shape {item['kind']!r} is unknown (known: plane, cylinder)")
 
 
+def _motion(item: dict[str, Any]) -> Motion:
+    velocity = item.get("velocity")
+    return Motion(item["kind"], None if velocity is None else _vector(velocity))
+
+
 def _body(item: dict[str, Any]) -> Body:
-    motion = item["motion"]
-    velocity = motion.get("velocity")
-    return Body(
-        name=item["name"],
-        material=item["material"],
-        shape=_shape(item["shape"]),
-        motion=Motion(motion["kind"], None if velocity is None else _vector(velocity)),
-    )
+    shape, motion = _shape(item["shape"]), _motion(item["motion"])
+    return Body(name=item["name"], material=item["material"], shape=shape, motion=motion)
+
+
+def _action(item: dict[str, Any]) -> Action:
+    if item["do"] == "set_pair":
+        return SetPair(_pair(item["pair"]))
+    if item["do"] == "set_motion":
+        return SetMotion(item["body"], _motion(item["motion"]))
+    if item["do"] == "set_gravity":
+        return SetGravity(_vector(item["value"]))
+    raise ValueError(f"action {item['do']!r} is unknown (known: set_pair, set_motion, set_gravity)")
 
 
 def _particle(item: dict[str, Any]) -> Particle:
@@ -305,5 +410,10 @@ def from_json(raw: dict[str, Any]) -> Scene:
         "bodies": tuple(_body(item) for item in raw["bodies"]),
         "particles": tuple(_particle(item) for item in raw["particles"]),
         "drives": tuple(_drive(item) for item in raw.get("drives", [])),
+        "stages": tuple(
+            Stage(item["name"], item["steps"], tuple(_action(action) for action in item["actions"]))
+            for item in raw.get("stages", [])
+        ),
+        "observables": tuple(raw.get("observables", [])),
     }
     return Scene(**{**raw, **typed})

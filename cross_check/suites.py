@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from cross_check import PACKAGE
-from cross_check.engine import Case, CaseError, load_case
+from cross_check.engine import Case, CaseError, Variant, load_case
 
 FOLDER = PACKAGE / "cases"
 SUITES = ("standard", "laws", "collisions", "snapshots", "bulk", "sintering", "fine-powders", "packed-beds")
@@ -14,6 +15,16 @@ SUITES = ("standard", "laws", "collisions", "snapshots", "bulk", "sintering", "f
 def every_case() -> list[Case]:
     """All cases of the package, by name."""
     return sorted((load_case(path) for path in FOLDER.glob("*.toml")), key=lambda case: case.name)
+
+
+def with_seeds(case: Case, count: int) -> Case:
+    """The case with the first `count` seeds of every ensemble."""
+    kept: list[Variant] = []
+    for variant in case.variants:
+        members = [other for other in case.variants if other.name == variant.name]
+        if variant in members[:count]:
+            kept.append(variant)
+    return replace(case, variants=tuple(kept))
 
 
 def select(what: str) -> tuple[str, list[Case]]:

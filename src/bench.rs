@@ -157,7 +157,11 @@ pub fn cached(cache: &Path, count: usize, seed: u64, progress: &dyn Fn(u64, u64)
     let bed = Bed::new(count, seed);
     let folder = cache.join(bed.name());
     if folder.join("bed.json").is_file() {
-        return export::read(&folder);
+        let bed = export::read(&folder)?;
+        if !folder.join(export::PAIR).is_file() {
+            export::pair(&bed, &folder)?;
+        }
+        return Ok(bed);
     }
     let bed = bed::build(bed, progress)?;
     export::write(&bed, &folder)?;

@@ -53,12 +53,14 @@ impl Body {
             material: scene.material,
             point: point.into(),
             shape,
-            velocity: match &scene.motion {
-                SceneMotion::Fixed => Vector::zeros(),
-                SceneMotion::Prescribed { velocity } => (*velocity).into(),
-            },
+            velocity: velocity(&scene.motion),
             force: Vector::zeros(),
         }
+    }
+
+    /// Gives the body another motion.
+    pub fn set_motion(&mut self, motion: &SceneMotion) {
+        self.velocity = velocity(motion);
     }
 
     /// Contact geometry of a sphere with this body. None where no normal exists: on the axis of a cylinder.
@@ -75,5 +77,12 @@ impl Body {
     /// Moves the body over a step `dt` [s].
     pub fn drift(&mut self, dt: f64) {
         self.point += self.velocity * dt;
+    }
+}
+
+fn velocity(motion: &SceneMotion) -> Vector {
+    match motion {
+        SceneMotion::Fixed => Vector::zeros(),
+        SceneMotion::Prescribed { velocity } => (*velocity).into(),
     }
 }

@@ -154,7 +154,7 @@ pub struct Flow {
     pub dissipated: f64,
     /// Losses of springs and of plastic flow.
     pub losses: Losses,
-    /// Energy that entered contacts.
+    /// Energy that entered contacts by approach, and the work of sliding, rolling and twisting.
     pub entered: f64,
     /// Work of moving bodies on the particles.
     pub body_work: f64,
@@ -242,6 +242,25 @@ impl<H: Memory> Contacts<H> {
     pub fn bytes(&self) -> usize {
         let own = size_of_val(&self.starts[..]) + size_of_val(&self.imports[..]);
         self.blocks.iter().map(Block::bytes).sum::<usize>() + own
+    }
+
+    /// The living contacts, ordered: ids of both particles, the smaller first, or the particle and the number of particles
+    /// plus the index of the body; force on the first [N]. Needs the ledger, which keeps the forces of pairs.
+    #[must_use]
+    pub fn forces(&self, particles: &Particles) -> Vec<([u32; 2], Vector)> {
+        let id = |at: usize| particles.motion[at].id;
+        let bodies = u32::try_from(particles.len()).unwrap_or(u32::MAX);
+        let mut found = Vec::new();
+        for block in &self.blocks {
+            let pairs = block.pairs.candidates.iter().zip(&block.pairs.alive).zip(&block.pairs.accounts);
+            let living = pairs.filter(|((_, alive), _)| **alive);
+            found.extend(living.map(|((pair, _), account)| ([id(pair.i()), id(pair.j())], account.force)));
+            let near = block.near.candidates.iter().zip(&block.near.alive).zip(&block.body_forces);
+            let living = near.filter(|((_, alive), _)| **alive);
+            found.extend(living.map(|((near, _), force)| ([id(near.particle as usize), bodies + near.body], *force)));
+        }
+        found.sort_unstable_by_key(|(pair, _)| *pair);
+        found
     }
 
     /// Number of living contacts, pairs and bodies.

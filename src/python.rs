@@ -18,6 +18,9 @@ mod module {
     #[expect(non_upper_case_globals, reason = "the name that Python gives to versions")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
 
+    #[pymodule_export]
+    const OBSERVABLES: &str = env!("CROSSGRAIN_OBSERVABLES");
+
     fn raise(error: Error) -> PyErr {
         PyValueError::new_err(error.to_string())
     }

@@ -44,6 +44,18 @@ pub struct Recorder {
     time_step: f64,
     steps: Vec<i64>,
     columns: Vec<Column>,
+    contacts: Option<ContactColumns>,
+}
+
+/// The contacts of all samples, one sample after the other.
+#[derive(Default)]
+struct ContactColumns {
+    /// Number of contacts before each sample, and in all.
+    start: Vec<u64>,
+    /// Both sides of each contact.
+    pair: Vec<u64>,
+    /// Force on the first [N].
+    force: Vec<f64>,
 }
 
 impl Recorder {
@@ -67,10 +79,16 @@ impl Recorder {
         columns.extend(energies.map(|name| column(name, "J", &[])));
         let mut header = header(scene);
         header["columns"]["step"] = json!("-");
+        let contacts = scene.contacts.then(|| ContactColumns { start: vec![0], ..ContactColumns::default() });
+        if contacts.is_some() {
+            for (name, unit) in [("contact_start", "-"), ("contact_pair", "-"), ("contact_force", "N")] {
+                header["columns"][name] = json!(unit);
+            }
+        }
         for column in &columns {
             header["columns"][column.name] = json!(column.unit);
         }
-        Self { header, started: Instant::now(), time_step: scene.time_step, steps: Vec::new(), columns }
+        Self { header, started: Instant::now(), time_step: scene.time_step, steps: Vec::new(), columns, contacts }
     }
 
     /// Adds a sample.
@@ -103,8 +121,29 @@ impl Recorder {
         }
     }
 
+    /// Whether samples hold the forces of contacts.
+    #[must_use]
+    pub fn keeps_contacts(&self) -> bool {
+        self.contacts.is_some()
+    }
+
+    /// Adds the contacts of a sample: both sides, and the force on the first [N].
+    pub fn contacts(&mut self, found: Vec<([u32; 2], Vector)>) {
+        let Some(columns) = &mut self.contacts else { return };
+        for (pair, force) in found {
+            columns.pair.extend(pair.map(u64::from));
+            columns.force.extend([force.x, force.y, force.z]);
+        }
+        columns.start.push(columns.pair.len() as u64 / 2);
+    }
+
     /// Adds the samples so far to a checkpoint.
     pub fn save(&self, into: &mut Checkpoint) {
+        if let Some(contacts) = &self.contacts {
+            into.put_counts("record_contact_start", contacts.start.clone());
+            into.put_counts("record_contact_pair", contacts.pair.clone());
+            into.put("record_contact_force", contacts.force.clone());
+        }
         into.put_counts("record_step", self.steps.iter().map(|step| step.unsigned_abs()).collect());
         for column in &self.columns {
             into.put(&format!("record_{}", column.name), column.values.clone());
@@ -113,6 +152,11 @@ impl Recorder {
 
     /// Takes the samples of a checkpoint.
     pub fn restore(&mut self, from: &Checkpoint) {
+        if let Some(contacts) = &mut self.contacts {
+            contacts.start = from.get_counts("record_contact_start").to_vec();
+            contacts.pair = from.get_counts("record_contact_pair").to_vec();
+            contacts.force = from.get("record_contact_force").to_vec();
+        }
         let steps = from.get_counts("record_step").iter();
         self.steps = steps.map(|step| i64::try_from(*step).unwrap_or(i64::MAX)).collect();
         for column in &mut self.columns {
@@ -137,22 +181,17 @@ impl Recorder {
     fn write_columns(&self, path: &Path) -> std::io::Result<()> {
         let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
         let samples = self.steps.len() as u64;
-        let mut steps = archive
-            .array("step", FileOptions::default().last_modified_time(DateTime::default()))?
-            .default_dtype()
-            .shape(&[samples])
-            .begin_nd()?;
-        steps.extend(self.steps.iter().copied())?;
-        steps.finish()?;
+        array(&mut archive, "step", &[samples], self.steps.iter().copied())?;
         for column in &self.columns {
             let shape: Vec<u64> = std::iter::once(samples).chain(column.shape.iter().copied()).collect();
-            let mut writer = archive
-                .array(column.name, FileOptions::default().last_modified_time(DateTime::default()))?
-                .default_dtype()
-                .shape(&shape)
-                .begin_nd()?;
-            writer.extend(column.values.iter().copied())?;
-            writer.finish()?;
+            array(&mut archive, column.name, &shape, column.values.iter().copied())?;
+        }
+        if let Some(contacts) = &self.contacts {
+            let signed = |values: &[u64]| values.iter().map(|value| value.cast_signed()).collect::<Vec<i64>>();
+            let count = contacts.pair.len() as u64 / 2;
+            array(&mut archive, "contact_start", &[samples + 1], signed(&contacts.start))?;
+            array(&mut archive, "contact_pair", &[count, 2], signed(&contacts.pair))?;
+            array(&mut archive, "contact_force", &[count, 3], contacts.force.iter().copied())?;
         }
         Ok(())
     }
@@ -168,6 +207,21 @@ impl Recorder {
     pub fn values(&self, name: &str) -> &[f64] {
         self.columns.iter().find(|column| column.name == name).map_or(&[], |column| &column.values)
     }
+}
+
+fn array<T: npyz::AutoSerialize>(
+    archive: &mut NpzWriter<BufWriter<File>>,
+    name: &str,
+    shape: &[u64],
+    values: impl IntoIterator<Item = T>,
+) -> std::io::Result<()> {
+    let mut writer = archive
+        .array(name, FileOptions::default().last_modified_time(DateTime::default()))?
+        .default_dtype()
+        .shape(shape)
+        .begin_nd()?;
+    writer.extend(values)?;
+    writer.finish()
 }
 
 fn header(scene: &Scene) -> serde_json::Value {

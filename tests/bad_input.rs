@@ -160,6 +160,7 @@ fn options_that_a_mirrored_code_does_not_have_are_refused() {
         pair["friction"] = 0.3.into();
     }
     json["mirror"]["code"] = "yade".into();
+    json["mirror"]["start"] = "staggered".into();
     json["mirror"]["tangential"] = options;
     let refused = |json: &serde_json::Value| {
         let scene = parse_scene("spoiled.json", &json.to_string()).unwrap();
@@ -171,6 +172,20 @@ fn options_that_a_mirrored_code_does_not_have_are_refused() {
     }
     json["mirror"]["tangential"]["history"] = "force".into();
     assert_eq!(refused(&json), None);
+    for (key, value, text) in [
+        ("cylinder_curvature", serde_json::json!(0.5), "mirror.cylinder_curvature = 0.5: native[yade] mirrors nothing"),
+        (
+            "plane_radius_factor",
+            serde_json::json!(5),
+            "mirror.plane_radius_factor = 5.0: native[yade] mirrors 1, 2 and",
+        ),
+        ("start", "synchronized".into(), "mirror.start = synchronized: native[yade] mirrors staggered"),
+    ] {
+        let mut spoiled = json.clone();
+        spoiled["mirror"][key] = value;
+        let message = refused(&spoiled).unwrap();
+        assert!(message.contains(text), "no `{text}` in: {message}");
+    }
 }
 
 #[test]

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cross_check.adapters.contacts import Rows, contact_columns
 from cross_check.adapters.interface import RunFailed
 from cross_check.adapters.rows import number_rows
 from cross_check.adapters.runner import Columns
+from cross_check.adapters.stages import gravities
 from cross_check.scene import Scene
 
 Array = NDArray[np.float64]
 
 HISTORY = "history.dump"
 PARTICLES = "particles.dump"
+CONTACTS = "contacts.dump"
 STATE = ("xu", "yu", "zu", "vx", "vy", "vz", "omegax", "omegay", "omegaz", "fx", "fy", "fz", "tqx", "tqy", "tqz")
 HEAD = 9
 # A body's index and the three columns that hold its force on each particle.
@@ -84,8 +87,14 @@ def _first_fault(path: Path, lines: list[bytes], columns: Sequence[str], count: 
     return f"{path}:{len(lines)}: the file ends after {found} of {len(steps)} frames"
 
 
-def read_run(folder: Path, scene: Scene, types: Sequence[int], walls: Sequence[Wall]) -> Columns:
-    """Columns of a run record from the two dumps of a deck in `folder`.
+def read_run(
+    folder: Path,
+    scene: Scene,
+    types: Sequence[int],
+    walls: Sequence[Wall],
+    pairs: Callable[[Path, Scene], Rows],
+) -> Columns:
+    """Columns of a run record from the dumps of a deck in `folder`; `pairs` reads the contacts between particles.
 
     `types` are the atom types as typed, `walls` tell which columns hold the force of which body on each particle [N].
     The codes add the weight to the force they dump; it is taken off again here, which leaves in the contact force a
@@ -101,7 +110,7 @@ def read_run(folder: Path, scene: Scene, types: Sequence[int], walls: Sequence[W
         "position": frames[:, :, 1:4],
         "velocity": frames[:, :, 4:7],
         "angular_velocity": frames[:, :, 7:10],
-        "force": frames[:, :, 10:13] - mass[None, :, None] * np.array(scene.gravity),
+        "force": frames[:, :, 10:13] - mass[None, :, None] * gravities(scene),
         "torque": frames[:, :, 13:16],
     }
     if walls:
@@ -109,7 +118,55 @@ def read_run(folder: Path, scene: Scene, types: Sequence[int], walls: Sequence[W
         for place, (body, _) in enumerate(walls):
             body_force[:, body] -= frames[:, :, 16 + 3 * place : 19 + 3 * place].sum(axis=1)
         columns["body_force"] = body_force
+    if scene.contacts:
+        found = [pairs(folder / CONTACTS, scene), *wall_contacts(frames[:, :, 16:], walls, len(scene.particles))]
+        columns |= contact_columns(folder / CONTACTS, len(frames), found)
     return columns
+
+
+def wall_contacts(columns: Array, walls: Sequence[Wall], count: int) -> list[Rows]:
+    """Contacts with bodies from the forces of walls on each particle, shape (T, N, 3 walls) [N].
+
+    A force of exactly zero is no contact.
+    """
+    found: list[Rows] = []
+    for place, (body, _) in enumerate(walls):
+        force = columns[:, :, 3 * place : 3 * place + 3]
+        sample, particle = np.nonzero(np.any(force != 0.0, axis=2))
+        pair = np.stack([particle, np.full_like(particle, count + body)], axis=1)
+        found.append(Rows(sample, pair, force[sample, particle]))
+    return found
+
+
+def read_entries(path: Path, columns: Sequence[str], steps: Sequence[int]) -> tuple[NDArray[np.int64], Array]:
+    """Sample index of every row of a `dump local`, shape (M,), and its numbers, shape (M, C). Raises RunFailed."""
+    try:
+        lines = path.read_bytes().split(b"\n")
+    except FileNotFoundError:
+        raise RunFailed(f"{path}: the run wrote no such file") from None
+    head = b"ITEM: ENTRIES " + " ".join(columns).encode()
+    rows: list[bytes] = []
+    counts: list[int] = []
+    at = 0
+    for step in steps:
+        frame = [line.rstrip() for line in lines[at : at + HEAD]]
+        wanted = {0: b"ITEM: TIMESTEP", 1: b"%d" % step, 2: b"ITEM: NUMBER OF ENTRIES", 8: head}
+        for place, text in wanted.items():
+            if len(frame) < HEAD or frame[place] != text:
+                found = frame[place].decode(errors="replace") if place < len(frame) else "the end of the file"
+                raise RunFailed(f"{path}:{at + place + 1}: {found!r} in place of {text.decode()!r}")
+        if not frame[3].isdigit():
+            raise RunFailed(f"{path}:{at + 4}: {frame[3].decode(errors='replace')!r} in place of a number of entries")
+        counts.append(int(frame[3]))
+        rows += lines[at + HEAD : at + HEAD + counts[-1]]
+        at += HEAD + counts[-1]
+    if lines[at:] != [b""]:
+        raise RunFailed(f"{path}:{at + 1}: more or fewer lines than the {len(steps)} frames that were ordered")
+    values = number_rows(rows, len(columns))
+    if values is None:
+        bad = next(line for line in rows if number_rows([line], len(columns)) is None)
+        raise RunFailed(f"{path}: not {len(columns)} finite numbers: {bad.decode(errors='replace')!r}")
+    return np.repeat(np.arange(len(counts)), counts), values
 
 
 def _check_ids(path: Path, frames: Array) -> None:

@@ -126,8 +126,20 @@ def missing(decks: Sequence[Deck], code: str, variable: str, program: str) -> li
     return [RunFailed(reason) for _ in decks]
 
 
-def record_of(deck: Deck, code: Code, wall_time: float, velocity_time: str, columns: Columns, where: Path) -> RunRecord:
-    """The checked record of one run; `step` and `time` are added to `columns`. Raises RunFailed naming `where`."""
+def record_of(
+    deck: Deck,
+    code: Code,
+    wall_time: float,
+    velocity_time: str,
+    columns: Columns,
+    where: Path,
+    *,
+    evaluated_anew: bool = False,
+) -> RunRecord:
+    """The checked record of one run; `step` and `time` are added to `columns`. Raises RunFailed naming `where`.
+
+    `evaluated_anew`: the code evaluates contact forces for output, with other velocities than its step used.
+    """
     scene = deck.scene
     step = np.arange(0, scene.steps + 1, scene.output_every, dtype=np.int64)
     header = Header(
@@ -143,7 +155,7 @@ def record_of(deck: Deck, code: Code, wall_time: float, velocity_time: str, colu
         time_step=scene.time_step,
         steps=scene.steps,
         velocity_time=velocity_time,
-        contact_force="exact",
+        contact_force="re-evaluated" if evaluated_anew and scene.contacts else "exact",
         mass=[particle.mass for particle in scene.particles],
         radius=[particle.radius for particle in scene.particles],
         bodies=[body.name for body in scene.bodies],

@@ -52,6 +52,12 @@ def _adhesive(scene: Scene) -> bool:
     return scene.model.normal.law in ("dmt", "sjkr", "sjkr2")
 
 
+def _curved(scene: Scene) -> bool:
+    """Whether a law asks for R*. `LudingHysteretic` has it in the plastic range, where its rule says what a wall is."""
+    linear = isinstance(scene.model.normal, LinearSpringDashpot | LudingHysteretic)
+    return not linear or scene.model.moments.law != "free"
+
+
 def _turns(scene: Scene) -> bool:
     """Whether the normal of the contact turns, or the sphere about it: at a plane a spring stays as it lies."""
     normals = [body.shape.normal for body in scene.bodies if isinstance(body.shape, Plane)]
@@ -133,7 +139,7 @@ def _options(scene: Scene) -> dict[str, Any]:
     hysteretic = isinstance(scene.model.normal, LudingHysteretic)
     return {
         "force_cut": _cut(scene),
-        "plane_radius_factor": scene.mirror.plane_radius_factor if planes else None,
+        "plane_radius_factor": scene.mirror.plane_radius_factor if planes and _curved(scene) else None,
         "cylinder_curvature": scene.mirror.cylinder_curvature if cylinders else None,
         "start": scene.mirror.start,
         "dashpot_limit": (scene.mirror.dashpot_limit or "base") if _adhesive(scene) and _damped(scene) else None,

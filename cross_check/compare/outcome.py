@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cross_check.adapters.interface import Deck
-from cross_check.record import RunRecord
+from cross_check.measured import Measured
+from cross_check.record import Header, RunRecord
 from cross_check.scene import Scene
 
 NATIVE = "native"
@@ -21,7 +22,8 @@ def mirror_name(code: str) -> str:
 class Outcome:
     """One source of one scene.
 
-    `verdict` is empty where there is a record, else `not-comparable(...)` or `not-run(...)`. `origin` is `live`,
+    `measured` stands in place of `record` where an ensemble is judged: trajectories of beds are not kept. `verdict` is
+    empty where there is either, else `not-comparable(...)` or `not-run(...)`. `origin` is `live`,
     `cache`, `recorded` or `not run`. `scene` is the scene that this source ran: a mirror's differs in its options.
     `folder` holds the record, under the source name of whoever ran it first.
     """
@@ -34,6 +36,13 @@ class Outcome:
     deck: Deck | None = None
     folder: Path | None = None
     note: str = ""
+    measured: Measured | None = None
+
+    @property
+    def header(self) -> Header | None:
+        """The header of what there is, or None."""
+        found = self.record or self.measured
+        return None if found is None else found.header
 
 
 Outcomes = dict[tuple[str, int], Outcome]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cross_check.engine import Case
 from cross_check.geometry import facing, nearest
 from cross_check.record import UNITS, Array, Header, RunRecord
-from cross_check.scene import Body, Scene, Shape
+from cross_check.scene import Scene, Shape
 
 Index = NDArray[np.int64]
 
@@ -168,7 +168,7 @@ class Trajectory:
         """The shape of a body at a sample, or None where the record and the case do not tell where it is."""
         if self.scene is None:
             return None
-        return moved(self.scene.bodies[body], float(self.record["time"][sample]))
+        return moved(self.scene, body, int(self.record.step[sample]))
 
     def contacts(self, sample: int) -> Contacts:
         """The contacts of a sample. Raises ExportError where there are none to be had."""
@@ -220,14 +220,21 @@ class Trajectory:
         return centers - self.radius(sample)[first][:, None] * along, np.full_like(force, np.nan)
 
 
-def moved(body: Body, time: float) -> Shape | None:
-    """The shape of a body at a time [s], or None for a motion that the case does not prescribe."""
-    if body.motion.kind == "fixed":
-        return body.shape
-    if body.motion.kind == "prescribed" and body.motion.velocity is not None:
-        x, y, z = (p + v * time for p, v in zip(body.shape.point, body.motion.velocity, strict=True))
-        return replace(body.shape, point=(x, y, z))
-    return None
+def moved(scene: Scene, body: int, step: int) -> Shape | None:
+    """The shape of a body at a step, through the stages of the scene, or None for a motion that is not prescribed."""
+    shape, begin = scene.bodies[body].shape, 0
+    point = np.array(shape.point)
+    for index, length in enumerate([stage.steps for stage in scene.stages] or [scene.steps]):
+        motion = scene.at_stage(index).bodies[body].motion
+        if motion.kind not in ("fixed", "prescribed"):
+            return None
+        lasted = min(step - begin, length) * scene.time_step
+        point = point + lasted * np.array(motion.velocity or (0.0, 0.0, 0.0))
+        begin += length
+        if begin >= step:
+            break
+    x, y, z = point.tolist()
+    return replace(shape, point=(x, y, z))
 
 
 def scene_of(header: Header, case: Case) -> Scene:

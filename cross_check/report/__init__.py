@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cross_check.report import figures, junit, page, tables, verdict_file
+from cross_check.report import figures, junit, page, tables, trends, verdict_file
 from cross_check.report.campaign import Campaign
 
 __all__ = ["write"]
@@ -21,5 +21,6 @@ def write(folder: Path, campaign: Campaign, pdf: bool = True) -> Path:
     tables.write_all(campaign, report / "tables")
     drawn = figures.draw_all(campaign, report / "figures", pdf)
     path = report / "index.html"
-    path.write_text(page.render(campaign, drawn), encoding="utf-8")
+    over_time = trends.draw_all(campaign.trends, report / "figures", pdf)
+    path.write_text(page.render(campaign, drawn, over_time), encoding="utf-8")
     return path

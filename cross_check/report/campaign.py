@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from cross_check.adapters.interface import Row
+from cross_check.compare.changes import BaselineChanges, Trend
 from cross_check.compare.verdicts import Comparison
 from cross_check.record import Array
 
@@ -94,7 +95,8 @@ class Campaign:
     """One run of a suite. `duration` [s]; `started` is a date and time as text.
 
     `translations` has the key `scene|code` and holds the deck text (or the name of its main file) and its rows.
-    `known_differences` explains every id that a verdict `known-difference(id)` may carry.
+    `known_differences` explains every id that a verdict `known-difference(id)` may carry. `changes` are those since a
+    recorded baseline, `trends` run over all recorded baselines.
     """
 
     suite: str
@@ -109,6 +111,8 @@ class Campaign:
     environment: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
     left_out: list[str] = field(default_factory=list[str])
     known_differences: dict[str, str] = field(default_factory=dict[str, str])
+    changes: list[BaselineChanges] = field(default_factory=list[BaselineChanges])
+    trends: list[Trend] = field(default_factory=list[Trend])
 
 
 def case_of(scene: str) -> str:

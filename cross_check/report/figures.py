@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.figure import Figure
 
 from cross_check.report import drawing, inline_svg, notation
 from cross_check.report.campaign import Campaign, Curve, CurveSet, SweepPlot, case_of
@@ -115,18 +116,23 @@ def _style() -> Any:  # the type of its keys changes with the version of matplot
     return dict(mpl.rc_params_from_file(STYLE, use_default_template=False))
 
 
-def draw(job: Job) -> Figured:
-    """Draws one figure and writes its files; the same job gives the same bytes."""
+def save(lay_out: Callable[[], Figure], stem: Path, title: str, pdf: bool) -> str:
+    """Lays a figure out in the style of the report and writes its files; returns the form that stands in the page."""
     with mpl.rc_context(_style()):
-        figure = drawing.figure(job)
+        figure = lay_out()
         text = StringIO()
         blank = {"Date": None, "Creator": None, "Format": None, "Type": None}
         figure.savefig(text, format="svg", metadata=blank)
-        if job.pdf:
+        if pdf:
             blank = {"CreationDate": None, "Creator": None, "Producer": None}
-            figure.savefig(f"{job.stem}.pdf", format="pdf", metadata=blank)
+            figure.savefig(f"{stem}.pdf", format="pdf", metadata=blank)
     svg = text.getvalue()
-    Path(f"{job.stem}.svg").write_text(svg, encoding="utf-8")
+    Path(f"{stem}.svg").write_text(svg, encoding="utf-8")
+    return inline_svg.slim(svg, stem.name, title)
+
+
+def draw(job: Job) -> Figured:
+    """Draws one figure and writes its files; the same job gives the same bytes."""
+    svg = save(lambda: drawing.figure(job), job.stem, job.title, job.pdf)
     notes = [drawn.note for drawn in (*job.curves, *job.residuals) if drawn.note]
-    name = job.stem.name
-    return Figured(job.scene, job.title, name, inline_svg.slim(svg, name, job.title), job.sweep, notes, job.pdf)
+    return Figured(job.scene, job.title, job.stem.name, svg, job.sweep, notes, job.pdf)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from cross_check.compare.verdicts import Comparison, kind
-from cross_check.report import matrix, notation, views
+from cross_check.report import changes, matrix, notation, views
 from cross_check.report.campaign import Campaign
 from cross_check.report.figures import Figured
 from cross_check.report.matrix import SYMBOLS, Entry
@@ -47,7 +48,7 @@ def sentence(comparisons: list[Comparison]) -> tuple[str, bool]:
     return f"{count} {noun}: all as expected", True
 
 
-def render(campaign: Campaign, figures: list[Figured]) -> str:
+def render(campaign: Campaign, figures: list[Figured], trends: Sequence[Figured] = ()) -> str:
     """The whole page as text."""
     entries = [Entry(f"c{place}", item) for place, item in enumerate(campaign.comparisons, start=1)]
     counts = Counter(kind(item.verdict) for item in campaign.comparisons)
@@ -68,6 +69,8 @@ def render(campaign: Campaign, figures: list[Figured]) -> str:
         "cases": views.cases(campaign, entries, figures),
         "codes": views.codes(campaign.runs),
         "differences": views.differences(campaign, entries),
+        "changes": changes.views(campaign.changes),
+        "trends": trends,
         "light": LIGHT,
         "dark": DARK,
         "symbols": SYMBOLS,

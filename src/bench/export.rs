@@ -1,4 +1,5 @@
-//! A bed as files: `bed.json` (parameters), `bed.npz` (columns by id) and `bed.data` (LAMMPS text, atom style sphere).
+//! A bed as files: `bed.json` (parameters), `pair.json` (mixed values of the pair), `bed.npz` (columns by id) and
+//! `bed.data` (LAMMPS text, atom style sphere).
 
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -15,14 +16,25 @@ use crate::error::Error;
 
 use super::bed::Bed;
 
+/// File of the pair.
+pub const PAIR: &str = "pair.json";
+
 /// Writes the files of a bed; `bed.json` comes last, so that its presence says that the others are whole.
 pub fn write(bed: &Bed, folder: &Path) -> Result<(), Error> {
     let failed = |reason| Error::Write { file: folder.to_owned(), reason };
     fs::create_dir_all(folder).map_err(failed)?;
     columns(bed, &folder.join("bed.npz")).map_err(failed)?;
     fs::write(folder.join("bed.data"), lammps(bed)).map_err(failed)?;
+    pair(bed, folder)?;
     let text = serde_json::to_string_pretty(bed).map_err(|error| failed(error.into()))?;
     fs::write(folder.join("bed.json"), text + "\n").map_err(failed)
+}
+
+/// Writes the mixed values of the pair, with friction: what decks of other codes are given where they take E* or G*.
+pub fn pair(bed: &Bed, folder: &Path) -> Result<(), Error> {
+    let failed = |reason| Error::Write { file: folder.join(PAIR), reason };
+    let text = serde_json::to_string_pretty(&bed.pair(bed.friction)).map_err(|error| failed(error.into()))?;
+    fs::write(folder.join(PAIR), text + "\n").map_err(failed)
 }
 
 fn columns(bed: &Bed, path: &Path) -> std::io::Result<()> {

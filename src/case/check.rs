@@ -9,6 +9,7 @@ use std::collections::HashSet;
 
 use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Case, Check, SCHEMA, TimeStep};
+use super::tag;
 use crate::error::Problem;
 
 /// Most variants of one case.
@@ -229,8 +230,8 @@ impl Checker<'_> {
             if fine && case.time.finest.is_none() {
                 self.add("time.finest", "nothing", "gates with the checks finest and extrapolated need it");
             }
-            if gate.check == Check::Equivalence && case.ensemble.is_none() {
-                self.add(key("check"), "equivalence", "means of an ensemble are compared: the case states [ensemble]");
+            if gate.check.of_ensemble() && case.ensemble.is_none() {
+                self.add(key("check"), tag(gate, "check"), "it judges an ensemble: the case states [ensemble]");
             }
         }
     }

@@ -17,6 +17,8 @@ pub struct Observable {
     pub stage: String,
     /// Last share of the stage over which it is averaged, in [0, 1]; 0 is the end of the stage [-].
     pub average: Number,
+    /// Name of the observable before this one whose value is subtracted; none if absent.
+    pub minus: Option<String>,
 }
 
 /// What is measured.

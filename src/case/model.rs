@@ -315,6 +315,24 @@ pub struct PairValues {
     pub cohesive: Option<bool>,
 }
 
+impl PairValues {
+    /// Takes the values that `new` states; what it does not state stays.
+    pub fn update(&mut self, new: &Self) {
+        fn take<T: Clone>(into: &mut Option<T>, from: Option<&T>) {
+            if let Some(value) = from {
+                *into = Some(value.clone());
+            }
+        }
+        let Self { damping, friction, rolling_friction, twisting_friction, work_of_adhesion, cohesive } = new;
+        take(&mut self.damping, damping.as_ref());
+        take(&mut self.friction, friction.as_ref());
+        take(&mut self.rolling_friction, rolling_friction.as_ref());
+        take(&mut self.twisting_friction, twisting_friction.as_ref());
+        take(&mut self.work_of_adhesion, work_of_adhesion.as_ref());
+        take(&mut self.cohesive, cohesive.as_ref());
+    }
+}
+
 /// Dissipation along the normal.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]

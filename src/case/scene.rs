@@ -9,6 +9,7 @@ mod mirror;
 mod particles;
 mod random;
 mod specification;
+mod stages;
 mod supported;
 mod valid;
 
@@ -16,8 +17,10 @@ use serde::{Deserialize, Serialize};
 
 pub use drives::{SceneDrive, SceneLeg};
 pub use mirror::{Mirror, Start};
+pub use stages::{SceneAction, SceneStage};
 
-use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, TangentialLaw};
+use super::measure::Observable;
+use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, PairValues, TangentialLaw};
 use super::quantity::{Kind, Number, Quantity};
 use super::schema::{Boundary, Case, Level};
 use crate::error::Problem;
@@ -50,6 +53,12 @@ pub struct Scene {
     pub particles: Vec<SceneParticle>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub drives: Vec<SceneDrive>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<SceneStage>,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub contacts: bool,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub observables: Vec<Observable>,
 }
 
 /// The box of a scene [m].
@@ -189,6 +198,9 @@ pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -
         bodies: Vec::new(),
         particles: Vec::new(),
         drives: Vec::new(),
+        stages: Vec::new(),
+        contacts: case.output.contacts,
+        observables: case.observables.clone(),
     };
     scene.pairs = pairs(case, &scene.materials);
     scene.bodies = bodies::bodies(case);
@@ -199,6 +211,7 @@ pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -
     let laws = scene.model.specification(&scene.mirror)?;
     approach::overlaps(case, &scene, &origins)?;
     let stages = duration::steps(case, &mut scene, &laws.normal)?;
+    scene.stages = stages::resolve(case, &scene, &stages);
     duration::travel(case, &scene, &origins)?;
     scene.drives = drives::resolve(case, &scene, &stages)?;
     drives::check(case, &scene)?;
@@ -244,28 +257,30 @@ fn index(case: &Case, name: &str) -> usize {
 }
 
 fn pairs(case: &Case, materials: &[Material]) -> Vec<PairProperties> {
-    let mixed = |pair: &super::schema::Pair| {
-        let between = [index(case, &pair.between[0]), index(case, &pair.between[1])];
-        let [first, second] = between.map(|at| &materials[at]);
-        let (damping_ratio, restitution) = match &pair.values.damping {
-            Some(Damping::Restitution { value }) => (material::damping_ratio(value.get()), Some(value.get())),
-            Some(Damping::Ratio { value }) => (value.get(), None),
-            Some(Damping::None {}) | None => (0.0, None),
-        };
-        let shear = material::effective_shear(first, second);
-        PairProperties {
-            between,
-            effective_young: material::effective_young(first, second),
-            effective_shear: shear.is_finite().then_some(shear),
-            damping_ratio,
-            restitution,
-            friction: pair.values.friction.map(Number::get),
-            rolling_friction: pair.values.rolling_friction.map(Number::get),
-            twisting_friction: pair.values.twisting_friction.map(Number::get),
-            work_of_adhesion: pair.values.work_of_adhesion.map(Quantity::si),
-        }
+    let between = |pair: &super::schema::Pair| [index(case, &pair.between[0]), index(case, &pair.between[1])];
+    case.pairs.iter().map(|pair| mixed(materials, between(pair), &pair.values)).collect()
+}
+
+/// What two materials, by index, make together.
+fn mixed(materials: &[Material], between: [usize; 2], values: &PairValues) -> PairProperties {
+    let [first, second] = between.map(|at| &materials[at]);
+    let (damping_ratio, restitution) = match &values.damping {
+        Some(Damping::Restitution { value }) => (material::damping_ratio(value.get()), Some(value.get())),
+        Some(Damping::Ratio { value }) => (value.get(), None),
+        Some(Damping::None {}) | None => (0.0, None),
     };
-    case.pairs.iter().map(mixed).collect()
+    let shear = material::effective_shear(first, second);
+    PairProperties {
+        between,
+        effective_young: material::effective_young(first, second),
+        effective_shear: shear.is_finite().then_some(shear),
+        damping_ratio,
+        restitution,
+        friction: values.friction.map(Number::get),
+        rolling_friction: values.rolling_friction.map(Number::get),
+        twisting_friction: values.twisting_friction.map(Number::get),
+        work_of_adhesion: values.work_of_adhesion.map(Quantity::si),
+    }
 }
 
 impl ForceCut {

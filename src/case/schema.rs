@@ -296,8 +296,22 @@ pub enum Check {
     Prediction,
     /// The native engine against itself at half the time step.
     Convergence,
-    /// Equivalence of ensemble means within the bound.
+    /// Equivalence of ensemble means within the bound: native with each code.
     Equivalence,
+    /// Equivalence of the ensemble means of an observable over the whole run: native with each code.
+    EquivalenceCurve,
+    /// Every seed of every source has at least the bound.
+    AtLeast,
+    /// Every seed of every source has at most the bound.
+    AtMost,
+}
+
+impl Check {
+    /// Whether it judges an ensemble by an observable of the case.
+    #[must_use]
+    pub fn of_ensemble(self) -> bool {
+        matches!(self, Self::Equivalence | Self::EquivalenceCurve | Self::AtLeast | Self::AtMost)
+    }
 }
 
 /// How a difference is made a number.
@@ -354,10 +368,13 @@ pub struct Ensemble {
 pub struct Output {
     /// Steps between samples.
     pub every: u64,
+    /// Whether samples hold the force of every contact.
+    #[serde(default)]
+    pub contacts: bool,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { every: 1 }
+        Self { every: 1, contacts: false }
     }
 }

@@ -34,6 +34,8 @@ pub enum ParticleSource {
         region: [[Length; 3]; 2],
         /// Largest component of the uniform random velocity [m/s].
         velocity: Speed,
+        /// Largest component of the uniform random angular velocity [rad/s]; none if absent.
+        angular_velocity: Option<AngularSpeed>,
     },
     /// A cubic lattice with noise, from the seed of the ensemble.
     Lattice {
@@ -49,6 +51,10 @@ pub enum ParticleSource {
         spacing: Length,
         /// Largest displacement along each axis [m].
         noise: Length,
+        /// Largest component of the uniform random velocity [m/s]; at rest if absent.
+        velocity: Option<Speed>,
+        /// Largest component of the uniform random angular velocity [rad/s]; none if absent.
+        angular_velocity: Option<AngularSpeed>,
     },
     /// Single particles or aggregates that fall one after the other and stick where they touch, with periodic sides.
     Ballistic {
@@ -122,8 +128,11 @@ impl ParticleSource {
     pub fn draws(&self) -> bool {
         match self {
             Self::Single { .. } | Self::File { .. } => false,
-            Self::Lattice { radius, noise, .. } => {
-                noise.si() > 0.0 || matches!(radius, RadiusDistribution::Uniform { .. })
+            Self::Lattice { radius, noise, velocity, angular_velocity, .. } => {
+                noise.si() > 0.0
+                    || velocity.is_some()
+                    || angular_velocity.is_some()
+                    || matches!(radius, RadiusDistribution::Uniform { .. })
             }
             Self::Random { .. } | Self::Ballistic { .. } | Self::Aggregate { .. } => true,
         }

@@ -4,7 +4,7 @@ use serde::Serialize;
 use toml::{Table, Value};
 
 use super::CaseText;
-use super::schema::{Case, Vary};
+use super::schema::{Case, Gate, Vary};
 use crate::error::{Error, Problem};
 
 /// One point of the sweep.
@@ -19,6 +19,8 @@ pub struct Variant {
     /// Index of the point on each axis.
     #[serde(skip)]
     pub chosen: Vec<usize>,
+    /// Its gates.
+    pub gates: Vec<Gate>,
     /// The case at this point.
     #[serde(skip)]
     pub case: Case,
@@ -101,7 +103,8 @@ fn variant(text: &CaseText, base: &Table, case: &Case, chosen: &[usize]) -> Resu
     }
     let name = points.iter().map(|point| point.label.as_str()).collect::<Vec<_>>().join(",");
     let full_only = chosen_points().any(|(_, point)| point.full_only);
-    let mut variant = Variant { name, points, full_only, chosen: chosen.to_vec(), case: case.clone() };
+    let gates = Vec::new();
+    let mut variant = Variant { name, points, full_only, chosen: chosen.to_vec(), gates, case: case.clone() };
     for (key, value) in chosen_points().flat_map(|(_, point)| &point.set) {
         replace(&mut table, key, value.clone()).map_err(|problem| text.invalid(Some(&variant), problem))?;
     }
@@ -115,6 +118,7 @@ fn variant(text: &CaseText, base: &Table, case: &Case, chosen: &[usize]) -> Resu
             return Err(Error::Malformed { place, key, message: toml::de::Error::message(&error).to_owned() });
         }
     };
+    variant.gates.clone_from(&variant.case.gates);
     Ok(variant)
 }
 

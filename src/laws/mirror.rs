@@ -112,7 +112,36 @@ impl Code {
         self.moments(moments).or_else(|allowed| refuse("model.moments", text(moments), allowed))
     }
 
-    const fn name(self) -> &'static str {
+    /// Refuses a view of walls that the code does not have: a plane as a sphere of so many radii, and the share of its
+    /// curvature that a cylinder has in R*, where the scene has one.
+    ///
+    /// # Errors
+    /// The first option that it does not have.
+    pub fn check_walls(self, plane: Option<f64>, curvature: Option<f64>, cylinders: bool) -> Result<(), Problem> {
+        let refuse = |key: &str, value: Option<f64>, allowed: &str| {
+            let value = value.map_or_else(|| "nothing".to_owned(), |value| format!("{value:?}"));
+            Err(Problem::new(format!("mirror.{key}"), value, format!("native[{}] mirrors {allowed}", self.name())))
+        };
+        // `Wall` by default, `Facet` by default, and both with `hertzian`.
+        let (planes, allowed): (&[f64], _) = match self {
+            Self::Yade => (&[1.0, 2.0, 1e8], "1, 2 and 1e8"),
+            Self::Liggghts | Self::Lammps => (&[], "nothing: a plane has no radius"),
+        };
+        if plane.is_some_and(|plane| !planes.contains(&plane)) {
+            return refuse("plane_radius_factor", plane, allowed);
+        }
+        let (own, allowed) = match self {
+            Self::Liggghts => (Some(0.0), "0"),
+            Self::Lammps => (Some(0.5), "0.5"),
+            Self::Yade => (None, "nothing: it has no inside of a cylinder"),
+        };
+        if (curvature.is_some() || cylinders) && curvature != own {
+            return refuse("cylinder_curvature", curvature, allowed);
+        }
+        Ok(())
+    }
+
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Liggghts => "liggghts",
             Self::Yade => "yade",
@@ -151,6 +180,31 @@ mod tests {
             }
             assert!(code.check(&with(hertz, Options::plain(), Rolling::Free)).is_err());
         }
+    }
+
+    #[test]
+    fn each_code_has_its_own_planes_and_cylinders() {
+        let refusal = |code: Code, plane, curvature, cylinders| {
+            code.check_walls(plane, curvature, cylinders).map_or_else(|problem| problem.to_string(), |()| "none".into())
+        };
+        for (code, own) in [(Code::Liggghts, Some(0.0)), (Code::Lammps, Some(0.5)), (Code::Yade, None)] {
+            for curvature in [None, Some(0.0), Some(0.5), Some(1.0)] {
+                let message = refusal(code, None, curvature, true);
+                let expected = format!("native[{}] mirrors", code.name());
+                assert_eq!(message == "none", curvature == own, "{message}");
+                assert!(curvature == own || message.contains(&expected), "{message}");
+            }
+            assert_eq!(refusal(code, None, None, false), "none");
+            assert_eq!(refusal(code, Some(1e8), None, false) == "none", code == Code::Yade);
+        }
+        assert_eq!(
+            refusal(Code::Lammps, None, Some(0.0), false),
+            "mirror.cylinder_curvature = 0.0: native[lammps] mirrors 0.5"
+        );
+        assert_eq!(
+            refusal(Code::Yade, Some(3.0), None, false),
+            "mirror.plane_radius_factor = 3.0: native[yade] mirrors 1, 2 and 1e8"
+        );
     }
 
     #[test]

@@ -32,7 +32,8 @@ pub struct Ledger {
     pub carried: f64,
     /// Work of moving bodies and of driven particles on the others and on contacts since the start.
     pub body_work: f64,
-    /// Energy that entered contacts since the start, the scale of the residual.
+    /// Energy that entered contacts since the start, by approach and as the work of sliding, rolling and twisting: the
+    /// scale of the residual.
     pub entered: f64,
 }
 

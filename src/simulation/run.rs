@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use crate::case::scene::Scene;
+use crate::case::scene::{Scene, SceneAction, SceneStage};
 use crate::error::Error;
 use crate::laws::model::ContactModel;
 use crate::laws::registry::Visitor;
@@ -81,13 +81,18 @@ fn samples<M: ContactModel>(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Recorder, Error> {
     let setup = Setup::new(scene);
+    let stages = begins(scene);
     let mut recorder = Recorder::new(scene);
     let hash = checkpoint::scene_hash(scene);
     let mut simulation = match &options.checkpoints {
         Some(plan) if plan.file.is_file() => {
             let saved = Checkpoint::read(&plan.file, &hash)?;
             recorder.restore(&saved);
-            Simulation::restore(&setup, model, &saved)?
+            let mut simulation = Simulation::restore(&setup, model, &saved)?;
+            // What the stages before changed; the one that begins at this step follows below.
+            let step = simulation.step();
+            stages.iter().filter(|(first, _)| *first < step).for_each(|(_, stage)| simulation.begin_stage(stage));
+            simulation
         }
         _ => {
             let mut simulation = Simulation::new(&setup, model)?;
@@ -99,6 +104,9 @@ fn samples<M: ContactModel>(
     let mut written = (simulation.step(), Instant::now());
     while simulation.step() < last {
         let step = simulation.step();
+        if let Some((_, stage)) = stages.iter().find(|(first, _)| *first == step) {
+            simulation.begin_stage(stage);
+        }
         let mut next = (step / scene.output_every + 1) * scene.output_every;
         if let Some(plan) = &options.checkpoints {
             next = next.min(plan.steps.map_or(step + LOOK, |steps| (written.0 + steps).max(step + 1)));
@@ -119,6 +127,17 @@ fn samples<M: ContactModel>(
     Ok(recorder)
 }
 
+/// The stages with the steps at which they begin.
+fn begins(scene: &Scene) -> Vec<(u64, &SceneStage)> {
+    let mut first = 0;
+    let stages = scene.stages.iter().map(|stage| {
+        let begin = first;
+        first += stage.steps;
+        (begin, stage)
+    });
+    stages.collect()
+}
+
 impl Checkpoints {
     fn due(&self, step: u64, written: (u64, Instant)) -> bool {
         self.steps.is_some_and(|steps| step >= written.0 + steps)
@@ -132,7 +151,25 @@ impl<M: ContactModel> Simulation<M> {
         self.finite()?;
         let ledger = self.energies();
         recorder.sample(self.step, &self.particles, &self.domain, &self.bodies, &ledger);
+        if recorder.keeps_contacts() {
+            recorder.contacts(self.contacts.forces(&self.particles));
+        }
         Ok(())
+    }
+
+    /// Changes what a stage changes at its beginning.
+    fn begin_stage(&mut self, stage: &SceneStage) {
+        for action in &stage.actions {
+            match action {
+                SceneAction::SetPair { pair } => {
+                    let [a, b] = pair.between;
+                    self.table[a * self.materials + b] = Some(*pair);
+                    self.table[b * self.materials + a] = Some(*pair);
+                }
+                SceneAction::SetMotion { body, motion } => self.bodies[*body].set_motion(motion),
+                SceneAction::SetGravity { value } => self.gravity = (*value).into(),
+            }
+        }
     }
 
     /// Refuses a state that is no longer finite.

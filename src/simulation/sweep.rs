@@ -407,6 +407,8 @@ fn account(
     });
     if let Some(action) = action {
         flow.losses = flow.losses + action.losses;
+        // What slides, rolls or twists away came in across the normal, whatever the approach brought.
+        flow.entered += action.losses.frictional.max(0.0) + action.losses.rolling.max(0.0);
     } else {
         // A spring that is dropped with its contact.
         flow.losses.carried += account.springs;

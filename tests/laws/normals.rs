@@ -9,7 +9,7 @@ use crossgrain::laws::normal::hertz::Hertz;
 use crossgrain::laws::normal::hysteretic_branches::Rule;
 use crossgrain::laws::normal::luding_hysteretic::LudingHysteretic;
 use crossgrain::laws::normal::{sjkr, sjkr2};
-use crossgrain::laws::{NormalLaw, PairLaw};
+use crossgrain::laws::{Approach, NormalLaw, PairLaw};
 
 use super::scenes::{self, digits};
 
@@ -149,4 +149,19 @@ fn at_walls_liggghts_takes_2r_and_yade_is_elastic() {
     let stiffness = 1000.0 + 3000.0 * 19.9995e-6 / limit;
     let slope = (plain[20_000][1] - plain[20_100][1]) / 100e-9;
     digits("unloading at a wall", slope, stiffness, 1e-6);
+}
+
+#[test]
+fn yade_has_no_force_at_a_wall_until_the_overlap_exceeds_its_first_value() {
+    let at_body = |overlap| Approach { overlap, normal_velocity: 0.0, radii: [RADIUS; 2], at_body: true };
+    let couple = Couple::on_plane(scenes::pair(0.0, 0.0), RADIUS, 2500.0);
+    let mut history = Default::default();
+    let force =
+        |overlap, history: &mut _| luding(Rule::LudingPm).evaluate(&couple.pair, &at_body(overlap), &(), history).force;
+    for overlap in [0.0, 3e-7, 2e-7, 3e-7] {
+        assert!(force(overlap, &mut history).to_bits() == 0, "{overlap}");
+    }
+    for overlap in [3.1e-7, 2e-7, 1e-7] {
+        assert!((force(overlap, &mut history) / overlap - 4000.0).abs() < 1e-9, "{overlap}");
+    }
 }

@@ -34,6 +34,33 @@ def test_every_code_is_listed_with_its_time_or_the_reason(tmp_path: Path, monkey
     assert "native" in done.output
 
 
+def test_decks_have_the_moduli_that_the_engine_formed(tmp_path: Path) -> None:
+    cache = tmp_path / "cache"
+    command = ["bench", "--cache", str(cache), "--out", str(tmp_path), "--particles", "100", "--seed", "1"]
+    command = bench.native_command([*command, "--steps", "1", "--repeats", "1", "--threads", "1"])
+    bench.spend(command, tmp_path, 60.0)
+    state = cache / "jammed-bed-100-seed-1"
+    bed = json.loads((state / "bed.json").read_text())
+    (lammps,) = (item for item in bench.CONTESTANTS if item.deck.startswith("gran-hertz-history"))
+
+    def stiffness() -> list[float]:
+        lines = bench.deck(lammps, state, 7).splitlines()
+        (words,) = (line.split() for line in lines if line.startswith("pair_style"))
+        return [float(word) for word in words[2:4]]
+
+    young, poisson = bed["young"], bed["poisson"]
+    like = [2.0 / 3.0 * young / (1.0 - poisson**2), 2.0 * young / ((2.0 - poisson) * (1.0 + poisson))]
+    assert stiffness() == pytest.approx(like, rel=1e-14)
+    # A bed of an earlier version has no such file.
+    pair = state / "pair.json"
+    text = pair.read_text()
+    pair.unlink()
+    bench.spend(command, tmp_path, 60.0)
+    assert pair.read_text() == text
+    pair.write_text(text.replace('"effective_young"', '"effective_young": 3e6, "was"'))
+    assert stiffness()[0] == pytest.approx(4e6, rel=1e-14)
+
+
 def test_a_program_that_fails_is_listed_with_its_log(tmp_path: Path) -> None:
     with pytest.raises(bench.RunFailed, match="false"):
         bench.spend(["false"], tmp_path, 10.0)

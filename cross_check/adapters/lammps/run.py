@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from cross_check.adapters import installed as programs
-from cross_check.adapters.dump import HISTORY, PARTICLES, read_run
+from cross_check.adapters.contacts import Rows, pair_rows
+from cross_check.adapters.dump import CONTACTS, HISTORY, PARTICLES, read_entries, read_run
 from cross_check.adapters.interface import Deck, RunFailed
-from cross_check.adapters.lammps.translate import types, wall_columns
+from cross_check.adapters.lammps.translate import CONTACT_COLUMNS, types, wall_columns
 from cross_check.adapters.runner import missing, record_of, run_each, run_program
 from cross_check.record import Code, RunRecord
+from cross_check.scene import Scene
 
 VARIABLE = "CROSSGRAIN_LAMMPS"
 PROGRAM = "lmp"
@@ -29,7 +31,13 @@ def run(decks: list[Deck], folder: Path, time_limit: float) -> list[RunRecord | 
     def run_one(deck: Deck, own: Path) -> RunRecord:
         command = [program, "-in", deck.main, "-log", "none", "-echo", "none"]
         wall_time = run_program(command, own, time_limit)
-        columns = read_run(own, deck.scene, types(deck.scene), wall_columns(deck.scene))
-        return record_of(deck, code, wall_time, "synchronized", columns, own)
+        columns = read_run(own, deck.scene, types(deck.scene), wall_columns(deck.scene), _pairs)
+        return record_of(deck, code, wall_time, "synchronized", columns, own, evaluated_anew=True)
 
-    return run_each(decks, folder, (HISTORY, PARTICLES), run_one)
+    return run_each(decks, folder, (HISTORY, PARTICLES, CONTACTS), run_one)
+
+
+def _pairs(path: Path, scene: Scene) -> Rows:
+    """Contacts between particles: LAMMPS lists those in touch, normal and tangential force apart."""
+    sample, values = read_entries(path, CONTACT_COLUMNS, scene.sample_steps)
+    return pair_rows(path, scene, sample, values[:, :2], values[:, 2:5] + values[:, 5:])

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cross_check.adapters import capability, paths
-from cross_check.adapters.dump import HISTORY, PARTICLES, STATE
+from cross_check.adapters import capability, paths, start_file
+from cross_check.adapters.dump import CONTACTS, HISTORY, PARTICLES, STATE
 from cross_check.adapters.interface import Deck, NotComparable, Row
-from cross_check.adapters.liggghts import laws
-from cross_check.adapters.liggghts.walls import Wall, wall_of
+from cross_check.adapters.liggghts import changes, laws
+from cross_check.adapters.liggghts.walls import Wall, pushed, wall_of
 from cross_check.adapters.render import number, numbers, render, table, word
 from cross_check.scene import Scene
 
 MAIN = "scene.in"
-# Up to this many particles the neighbour list is found without bins, whose number a large domain would drive too high
-# (meshes need bins).
-WITHOUT_BINS = 64
+# Ids of both particles and the force on the first; the third column tells images apart.
+CONTACT_COLUMNS = tuple(f"c_pairs[{place}]" for place in (1, 2, 4, 5, 6))
 # LIGGGHTS has 32 groups, one of them is `all`.
 MOST_GROUPS = 31
 
@@ -27,22 +26,27 @@ def deck(scene: Scene) -> Deck:
         raise NotComparable(f"{len(scene.drives)} driven particles, LIGGGHTS has {MOST_GROUPS} groups")
     paths.constant_spins(scene, "LIGGGHTS")
     words = laws.words(scene)
-    walls = [wall_of(wall, scene.domain, words.model, words.settings) for wall in capability.walls(scene)]
+    meshes = pushed(scene)
+    walls = [wall_of(wall, scene.domain, words.model, words.settings, meshes) for wall in capability.walls(scene)]
     magnitude, direction = capability.gravity(scene)
     weight = f"{number(magnitude)} vector {numbers(direction)}"
     rows = capability.shared_rows(scene, "timestep", ("fix gravity", weight, "magnitude and direction"))
     rows += words.material_rows + words.model_rows
     rows += [row for wall in walls for row in wall.rows]
     rows += paths.rows(scene, "fix move variable")
-    rows.append(Row("particles[*].radius", "below", "diameter", "below", "m", "2 R"))
-    rows.append(Row("particles[*].mass", "below", "mass", "below", "kg", "as stated"))
-    files = {MAIN: _text(scene, rows, words, walls)}
+    rows += start_file.rows(scene)
+    stages = changes.stages(scene)
+    rows += [row for stage in stages for row in stage.rows]
+    files = {MAIN: _text(scene, rows, words, walls, stages)}
     for wall in walls:
         files |= wall.files
+    if start_file.many(scene):
+        types = [particle.material + 1 for particle in scene.particles]
+        files[start_file.START] = start_file.data_file(scene, types, len(scene.materials))
     return Deck("liggghts", scene, files, MAIN, rows)
 
 
-def _text(scene: Scene, rows: list[Row], words: laws.Words, walls: list[Wall]) -> str:
+def _text(scene: Scene, rows: list[Row], words: laws.Words, walls: list[Wall], stages: list[changes.Stage]) -> str:
     meshes = any(wall.files for wall in walls)
     magnitude, direction = capability.gravity(scene)
     domain = scene.domain
@@ -58,8 +62,10 @@ def _text(scene: Scene, rows: list[Row], words: laws.Words, walls: list[Wall]) -
             "bounds": numbers(bounds),
             "materials": [f"{index + 1} {word(m.name)}" for index, m in enumerate(scene.materials)],
             "types": len(scene.materials),
-            "skin": number(min(particle.radius for particle in scene.particles)),
-            "search": "nsq" if len(scene.particles) <= WITHOUT_BINS and not meshes else "bin",
+            "start_file": start_file.START if start_file.many(scene) else None,
+            "skin": number(start_file.skin(scene)),
+            # Bins of few particles would be too many in a large domain; meshes need them.
+            "search": "bin" if meshes or start_file.many(scene) else "nsq",
             "particles": [
                 {
                     "id": index + 1,
@@ -80,7 +86,7 @@ def _text(scene: Scene, rows: list[Row], words: laws.Words, walls: list[Wall]) -
             "walls": walls,
             "gravity": number(magnitude),
             "direction": numbers(direction),
-            "stages": paths.move_stages(scene),
+            "stages": stages,
             "free": bool(paths.free(scene)),
             "every": scene.output_every,
             "steps": scene.steps,
@@ -88,6 +94,8 @@ def _text(scene: Scene, rows: list[Row], words: laws.Words, walls: list[Wall]) -
             "history": " ".join(history),
             "history_format": " ".join(["%d"] + ["%.17g"] * (len(history) - 1)),
             "particles_file": PARTICLES,
+            "contacts_file": CONTACTS if scene.contacts else None,
+            "contact_columns": " ".join(CONTACT_COLUMNS),
         },
     )
 

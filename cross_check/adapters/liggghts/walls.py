@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from cross_check.adapters import capability
 from cross_check.adapters.capability import AXES, Plane, Tube
 from cross_check.adapters.interface import NotComparable, Row
 from cross_check.adapters.render import number, numbers, render, word
-from cross_check.scene import Domain
+from cross_check.adapters.stages import segments
+from cross_check.scene import Domain, Scene
 
 
 @dataclass(frozen=True)
@@ -21,9 +23,20 @@ class Wall:
     files: dict[str, str] = field(default_factory=dict[str, str])
 
 
-def wall_of(wall: Plane | Tube, domain: Domain, model: str, settings: str) -> Wall:
-    """The wall of one body; `model` are the first and `settings` the last words of its contact model."""
-    return _tube(wall, model, settings) if isinstance(wall, Tube) else _plane(wall, domain, model, settings)
+def pushed(scene: Scene) -> set[int]:
+    """Indices of the planes that move along their normal in any part of the run: they are meshes in all of it."""
+    walls = (wall for part in segments(scene) for wall in capability.walls(part.scene))
+    return {wall.index for wall in walls if isinstance(wall, Plane) and wall.velocity[wall.axis] != 0.0}
+
+
+def wall_of(wall: Plane | Tube, domain: Domain, model: str, settings: str, meshes: set[int]) -> Wall:
+    """The wall of one body; `model` are the first and `settings` the last words of its contact model.
+
+    `meshes` are the indices of the planes that are meshes.
+    """
+    if isinstance(wall, Tube):
+        return _tube(wall, model, settings)
+    return _pushed(wall, domain, model, settings) if wall.index in meshes else _plane(wall, model, settings)
 
 
 def _tube(tube: Tube, model: str, settings: str) -> Wall:
@@ -44,12 +57,10 @@ def _tube(tube: Tube, model: str, settings: str) -> Wall:
     return Wall(word(tube.name), [f"fix {fix} all wall/gran model {model} store_force yes {words}"], rows)
 
 
-def _plane(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
+def _plane(plane: Plane, model: str, settings: str) -> Wall:
     moving = [axis for axis in range(3) if plane.velocity[axis] != 0.0]
     if len(moving) > 1:
         raise NotComparable(f"body {plane.name}: LIGGGHTS slides a wall along one axis, or pushes it along its normal")
-    if plane.axis in moving:
-        return _pushed(plane, domain, model, settings)
     fix, place = f"wall_{plane.index + 1}", f"{AXES[plane.axis]}plane"
     key, position = f"bodies.{plane.name}", number(plane.position)
     rows = [Row(f"{key}.shape.point", position, f"{fix} {place}", position, "m", "as stated")]
@@ -63,6 +74,8 @@ def _plane(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
 
 def _pushed(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
     """A mesh of two triangles across the domain; a primitive wall cannot move along its normal."""
+    if sum(v != 0.0 for v in plane.velocity) > 1:
+        raise NotComparable(f"body {plane.name}: LIGGGHTS slides a wall along one axis, or pushes it along its normal")
     fix, mesh = f"wall_{plane.index + 1}", f"mesh_{plane.index + 1}"
     file = f"{mesh}.stl"
     first, second = ((plane.axis + 1) % 3, (plane.axis + 2) % 3)
@@ -81,11 +94,14 @@ def _pushed(plane: Plane, domain: Domain, model: str, settings: str) -> Wall:
     key, position = f"bodies.{plane.name}", number(plane.position)
     rows = [
         Row(f"{key}.shape.point", position, file, position, "m", "two triangles across the domain"),
-        _motion_row(plane, "move/mesh linear", numbers(plane.velocity)),
     ]
+    push: list[str] = []
+    if any(plane.velocity):
+        rows.append(_motion_row(plane, "move/mesh linear", numbers(plane.velocity)))
+        push = [f"fix push_{plane.index + 1} all move/mesh mesh {mesh} linear {numbers(plane.velocity)}"]
     commands = [
         f"fix {mesh} all mesh/surface file {file} type {plane.material + 1}",
-        f"fix push_{plane.index + 1} all move/mesh mesh {mesh} linear {numbers(plane.velocity)}",
+        *push,
         f"fix {fix} all wall/gran model {model} store_force yes mesh n_meshes 1 meshes {mesh}{settings}",
     ]
     return Wall(word(plane.name), commands, rows, {file: text})

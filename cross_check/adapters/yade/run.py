@@ -17,7 +17,7 @@ from cross_check.adapters import installed as programs
 from cross_check.adapters.interface import Deck, RunFailed
 from cross_check.adapters.runner import LOG, deck_folder, missing, record_of, start, stop, with_log
 from cross_check.adapters.yade.parse import read_run
-from cross_check.adapters.yade.translate import PARTICLES, WALLS
+from cross_check.adapters.yade.translate import CONTACTS, PARTICLES, WALLS
 from cross_check.record import Code, RunRecord
 
 VARIABLE = "CROSSGRAIN_YADE"
@@ -50,7 +50,7 @@ def run(decks: list[Deck], folder: Path, time_limit: float) -> list[RunRecord | 
     code, program = installed(), programs.executable(VARIABLE, PROGRAM)
     if code is None or program is None:
         return missing(decks, "yade", VARIABLE, PROGRAM)
-    own = [deck_folder(folder, index, deck, (PARTICLES, WALLS)) for index, deck in enumerate(decks)]
+    own = [deck_folder(folder, index, deck, (PARTICLES, WALLS, CONTACTS)) for index, deck in enumerate(decks)]
     results: dict[int, RunRecord | RunFailed] = {}
     batches = [list(range(len(decks)))] if decks else []
     while batches:

@@ -7,7 +7,6 @@ use crate::case::measure::{Measure, Region};
 use crate::case::model::NormalLaw;
 use crate::case::protocol::{Action, Course, End, HeatTarget};
 use crate::case::quantity::Duration;
-use crate::case::schema::Check;
 
 impl Checker<'_> {
     pub(super) fn stages(&mut self) {
@@ -155,11 +154,15 @@ impl Checker<'_> {
             let allowed = |value| (0.0..=1.0).contains(&value);
             self.number(key("average"), observable.average, allowed, "a share of the stage, in [0, 1]");
             self.measure(&key("measure"), &observable.measure);
+            if let Some(other) = &observable.minus {
+                let before: Vec<_> = case.observables[..i].iter().map(|one| one.name.as_str()).collect();
+                self.known(key("minus"), other, "observable before this one", &before);
+            }
         }
         self.distinct("observables", case.observables.iter().map(|observable| &observable.name));
         let names: Vec<_> = case.observables.iter().map(|observable| observable.name.as_str()).collect();
         for (i, gate) in case.gates.iter().enumerate() {
-            if gate.check == Check::Equivalence {
+            if gate.check.of_ensemble() {
                 self.known(format!("gates.{i}.quantity"), &gate.quantity, "observable in this case", &names);
             } else if !is_name(&gate.quantity, "-_") {
                 self.add(format!("gates.{i}.quantity"), &gate.quantity, "a name has letters, digits, `-` and `_`");

@@ -1,7 +1,7 @@
 //! The time step and the number of steps of a scene.
 
 use super::particles::Origins;
-use super::{Scene, SceneMotion, approach};
+use super::{Scene, SceneAction, SceneMotion, approach};
 use crate::Vector;
 use crate::case::protocol::End;
 use crate::case::schema::{Case, TimeStep};
@@ -72,6 +72,8 @@ pub fn steps(case: &Case, scene: &mut Scene, law: &Normal) -> Result<Vec<u64>, P
     }
     let mut stages = Vec::new();
     let (mut samples, mut values) = (0.0, 0.0);
+    // A particle of a packing has three contacts of its own: two ids and a force each.
+    let row = if scene.contacts { 31 } else { 16 };
     for (i, stage) in case.stages.iter().enumerate() {
         let key = format!("stages.{i}.end.value");
         let length = match &stage.end {
@@ -90,7 +92,7 @@ pub fn steps(case: &Case, scene: &mut Scene, law: &Normal) -> Result<Vec<u64>, P
                 format!("makes {steps:e} steps of {:e} s, from 1 to {MOST_STEPS:e} are allowed", scene.time_step);
             return Err(Problem::new(key, format!("{length:e} s"), allowed));
         }
-        values += own * (16 * scene.particles.len() + 3 * scene.bodies.len() + 8) as f64;
+        values += own * (row * scene.particles.len() + 3 * scene.bodies.len() + 8) as f64;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST_STEPS")]
         stages.push(steps as u64);
     }
@@ -121,7 +123,15 @@ pub fn travel(case: &Case, scene: &Scene, origins: &Origins) -> Result<(), Probl
         SceneMotion::Prescribed { velocity } => Some((format!("bodies.{i}.motion.velocity"), *velocity)),
         SceneMotion::Fixed => None,
     });
-    for (key, velocity) in particles.chain(walls) {
+    let set = scene.stages.iter().enumerate().flat_map(|(i, stage)| {
+        stage.actions.iter().filter_map(move |action| match action {
+            SceneAction::SetMotion { motion: SceneMotion::Prescribed { velocity }, .. } => {
+                Some((format!("stages.{i}.actions"), *velocity))
+            }
+            _ => None,
+        })
+    });
+    for (key, velocity) in particles.chain(walls).chain(set) {
         let length = Vector::from(velocity).norm() * dt;
         if far(length) {
             return Err(Problem::new(key, format!("{velocity:?} m/s"), allowed(length)));

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::Problem;
 use crate::laws::mirror::Code;
 use crate::laws::moments::constant_torque::Opposed;
 use crate::laws::moments::elastic_plastic_rolling::ElasticPlasticRolling;
@@ -42,6 +43,26 @@ pub struct Mirror {
     /// How the largest overlap of a hysteretic law follows the limit of cohesion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hysteresis: Option<Rule>,
+}
+
+impl Mirror {
+    /// Refuses walls and a start that the mirrored code does not have.
+    ///
+    /// # Errors
+    /// The first option that it does not have.
+    pub fn check(&self, cylinders: bool) -> Result<(), Problem> {
+        let Some(code) = self.code else { return Ok(()) };
+        code.check_walls(self.plane_radius_factor, self.cylinder_curvature, cylinders)?;
+        let (own, name) = match code {
+            Code::Yade => (Start::Staggered, "staggered"),
+            Code::Liggghts | Code::Lammps => (Start::Synchronized, "synchronized"),
+        };
+        if self.start == own {
+            return Ok(());
+        }
+        let value = if self.start == Start::Staggered { "staggered" } else { "synchronized" };
+        Err(Problem::new("mirror.start", value, format!("native[{}] mirrors {name}", code.name())))
+    }
 }
 
 /// Where velocities start.

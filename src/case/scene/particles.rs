@@ -6,7 +6,7 @@ use super::insertion::Insertion;
 use super::random::Random;
 use super::{Scene, SceneParticle, index, si};
 use crate::Vector;
-use crate::case::quantity::{Length, Quantity};
+use crate::case::quantity::{Kind, Length, Quantity};
 use crate::case::schema::Case;
 use crate::case::source::{ParticleSource, RadiusDistribution};
 use crate::domain::Domain;
@@ -49,7 +49,7 @@ pub fn place(case: &Case, scene: &mut Scene) -> Result<Origins, Problem> {
     }
     let largest = largest(case);
     for (i, source) in case.particles.iter().enumerate() {
-        if let ParticleSource::Random { material, count, radius, region, velocity } = source {
+        if let ParticleSource::Random { material, count, radius, region, velocity, angular_velocity } = source {
             let region = region.map(|corner| Vector::from(si(&corner)));
             let mut insertion = Insertion::new(&domain, &scene.bodies, region, *count, largest);
             for particle in placed.iter().flatten() {
@@ -60,7 +60,7 @@ pub fn place(case: &Case, scene: &mut Scene) -> Result<Origins, Problem> {
             let places = insertion
                 .fill(&radii, &mut random)
                 .map_err(|full| Problem::new(format!("particles.{i}.count"), count, full.to_string()))?;
-            let mut moving = || ([0; 3].map(|_| random.between(-velocity.si(), velocity.si())), [0.0; 3]);
+            let mut moving = || (any(Some(*velocity), &mut random), any(*angular_velocity, &mut random));
             let spheres = radii.iter().zip(places);
             placed[i] = spheres.map(|(radius, at)| sphere(case, material, *radius, at.into(), moving())).collect();
         }
@@ -87,16 +87,26 @@ fn sphere(
 
 /// A cubic lattice, x running fastest; noise that crosses a periodic face re-enters on the other side.
 fn lattice(case: &Case, source: &ParticleSource, domain: &Domain, random: &mut Random) -> Vec<SceneParticle> {
-    let ParticleSource::Lattice { material, count, radius, origin, spacing, noise } = source else { return Vec::new() };
+    let ParticleSource::Lattice { material, count, radius, origin, spacing, noise, velocity, angular_velocity } =
+        source
+    else {
+        return Vec::new();
+    };
     let sites = (0..count[2]).flat_map(|z| (0..count[1]).flat_map(move |y| (0..count[0]).map(move |x| [x, y, z])));
     let site = |cell: [u32; 3]| {
         let radius = draw(radius, random);
         let place = Vector::from_fn(|axis, _| {
             origin[axis].si() + spacing.si() * f64::from(cell[axis]) + random.between(-noise.si(), noise.si())
         });
-        sphere(case, material, radius, domain.wrap(place).0.into(), ([0.0; 3], [0.0; 3]))
+        let moving = (any(*velocity, random), any(*angular_velocity, random));
+        sphere(case, material, radius, domain.wrap(place).0.into(), moving)
     };
     sites.map(site).collect()
+}
+
+/// A vector whose components are uniform up to `most`; nothing is drawn where there is none.
+fn any<K: Kind>(most: Option<Quantity<K>>, random: &mut Random) -> [f64; 3] {
+    most.map_or([0.0; 3], |most| [0; 3].map(|_| random.between(-most.si(), most.si())))
 }
 
 fn draw(radius: &RadiusDistribution, random: &mut Random) -> f64 {

@@ -1,7 +1,8 @@
 //! What this build computes of what the schema can say.
 
+use crate::case::measure::Measure;
 use crate::case::protocol::{Action, End, Motion, Shape, Stage};
-use crate::case::schema::{Case, Check, Geometry};
+use crate::case::schema::{Case, Geometry};
 use crate::case::source::ParticleSource;
 use crate::case::tag;
 use crate::error::Problem;
@@ -43,13 +44,16 @@ pub fn supported(case: &Case) -> Result<(), Problem> {
         }
     }
     stages(&case.stages)?;
-    if let Some(observable) = case.observables.first() {
-        return refuse("observables.0.name", &observable.name, "the observables that every record has");
+    for (i, observable) in case.observables.iter().enumerate() {
+        if matches!(
+            observable.measure,
+            Measure::Temperature { .. } | Measure::HeatFlow { .. } | Measure::WallLineStress { .. }
+        ) {
+            let kind = tag(&observable.measure, "kind");
+            return refuse(format!("observables.{i}.measure.kind"), kind, "measures of spheres without heat");
+        }
     }
-    match case.gates.iter().position(|gate| gate.check == Check::Equivalence) {
-        Some(i) => refuse(format!("gates.{i}.check"), "equivalence", "gates on single runs"),
-        None => Ok(()),
-    }
+    Ok(())
 }
 
 fn heat(case: &Case) -> Result<(), Problem> {
@@ -61,10 +65,20 @@ fn heat(case: &Case) -> Result<(), Problem> {
 
 fn stages(stages: &[Stage]) -> Result<(), Problem> {
     for (i, stage) in stages.iter().enumerate() {
-        let other = stage.actions.iter().position(|action| !matches!(action, Action::Drive { .. }));
-        if let Some(j) = other {
-            let name = tag(&stage.actions[j], "do");
-            return refuse(format!("stages.{i}.actions.{j}.do"), name, "stages with the action `drive`, or none");
+        for (j, action) in stage.actions.iter().enumerate() {
+            match action {
+                Action::Drive { .. } | Action::SetPair { .. } | Action::SetGravity { .. } => {}
+                Action::SetMotion { motion: Motion::Fixed {} | Motion::Prescribed { .. }, .. } => {}
+                Action::SetMotion { motion, .. } => {
+                    let key = format!("stages.{i}.actions.{j}.motion.kind");
+                    return refuse(key, tag(motion, "kind"), "`fixed` and `prescribed` bodies");
+                }
+                _ => {
+                    let key = format!("stages.{i}.actions.{j}.do");
+                    let what = "the actions `drive`, `set_gravity`, `set_motion` and `set_pair`";
+                    return refuse(key, tag(action, "do"), what);
+                }
+            }
         }
         if !matches!(stage.end, End::Duration { .. } | End::Contacts { .. }) {
             let kind = tag(&stage.end, "kind");

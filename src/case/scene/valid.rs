@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::duration::MOST_STEPS;
-use super::{SCHEMA, Scene, SceneShape};
+use super::{SCHEMA, Scene, SceneAction, SceneShape};
 use crate::Vector;
 use crate::case::schema::{Boundary, Case};
 use crate::domain::Domain;
@@ -62,7 +62,12 @@ impl Scene {
             Ok(laws) => laws,
             Err(problem) => return Some(problem.to_string()),
         };
+        let cylinders = self.bodies.iter().any(|body| matches!(body.shape, SceneShape::Cylinder { .. }));
+        if let Err(problem) = self.mirror.check(cylinders) {
+            return Some(problem.to_string());
+        }
         self.indices()
+            .or_else(|| self.staged())
             .or_else(|| self.numbers())
             .or_else(|| self.paths())
             .or_else(|| self.values(&laws))
@@ -78,6 +83,36 @@ impl Scene {
         let particles = particles.map(|(i, particle)| (format!("particles.{i}.material"), particle.material));
         let (key, at) = pairs.chain(bodies).chain(particles).find(|(_, at)| *at >= count)?;
         Some(format!("{key} = {at}: there are {count} materials, counted from 0"))
+    }
+
+    /// Stages last as long as the run, in whole samples, and change what is there.
+    fn staged(&self) -> Option<String> {
+        if self.stages.is_empty() {
+            return None;
+        }
+        let steps = self.stages.iter().map(|stage| stage.steps).sum::<u64>();
+        if steps != self.steps {
+            return Some(format!("stages: {steps} steps, the run has {}", self.steps));
+        }
+        for (i, stage) in self.stages.iter().enumerate() {
+            if stage.steps == 0 || !stage.steps.is_multiple_of(self.output_every) {
+                let every = self.output_every;
+                return Some(format!("stages.{i}.steps = {}: a multiple of output_every = {every}", stage.steps));
+            }
+            for (j, action) in stage.actions.iter().enumerate() {
+                let key = format!("stages.{i}.actions.{j}");
+                match action {
+                    SceneAction::SetMotion { body, .. } if *body >= self.bodies.len() => {
+                        return Some(format!("{key}.body = {body}: there are {} bodies", self.bodies.len()));
+                    }
+                    SceneAction::SetPair { pair } if self.pair(pair.between[0], pair.between[1]).is_none() => {
+                        return Some(format!("{key}.pair.between = {:?}: the scene states no such pair", pair.between));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        None
     }
 
     fn numbers(&self) -> Option<String> {
@@ -163,7 +198,11 @@ impl Scene {
     /// Values that the laws ask of every pair.
     fn values(&self, laws: &Specification) -> Option<String> {
         let asked = laws.asks();
-        for (i, pair) in self.pairs.iter().enumerate() {
+        let set = self.stages.iter().flat_map(|stage| &stage.actions).filter_map(|action| match action {
+            SceneAction::SetPair { pair } => Some(pair),
+            _ => None,
+        });
+        for (i, pair) in self.pairs.iter().chain(set).enumerate() {
             let given = [
                 ("effective_shear", asked.effective_shear, pair.effective_shear),
                 ("friction", asked.friction, pair.friction),

@@ -64,13 +64,25 @@ impl Branches {
     }
 
     /// YADE's rules: the force [N] from the overlap and the last one [m], with its largest overlap and offset d0 [m].
+    ///
+    /// At bodies, where l = 0, YADE divides 0 by 0 while m = 0: k2 and d0 are then no numbers, every comparison with them
+    /// is false and no branch gives a force. d0 stays so, here as an infinite offset, until the overlap next exceeds m.
     pub(super) fn yade(&self, overlap: f64, last: f64, depth: f64, largest: &mut f64, offset: &mut f64) -> f64 {
         let (k1, kc) = (self.loading, self.cohesive);
+        if self.limit == 0.0 && *largest == 0.0 {
+            if overlap > 0.0 {
+                (*largest, *offset) = (overlap, f64::INFINITY);
+            }
+            return 0.0;
+        }
         let stiffness = self.stiffness(*largest);
         let shift = |largest: f64| ((1.0 - k1 / stiffness) * largest).min(depth);
         if overlap > *largest {
             *largest = overlap;
             *offset = shift(overlap);
+        }
+        if offset.is_infinite() {
+            return 0.0;
         }
         let line = stiffness * (overlap - *offset);
         if line >= k1 * overlap {

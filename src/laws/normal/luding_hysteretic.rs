@@ -23,7 +23,7 @@
 //! |---|---|
 //! | `self_consistent` (plain; LIGGGHTS `hooke/hysteresis`) | (d + sqrt(d^2 + 4 (k1 + kc) d l / (kp - k1))) / 2, the branch through d |
 //! | `old_stiffness` (LIGGGHTS `luding`) | (k2 + kc) / (k2 - k1) d with the old k2 |
-//! | `luding_pm` (YADE `LudingPM`) | the same, only while d falls; k2 of the last step's m everywhere; line k2 (d - d0) with d0 = min((1 - k1/k2) m, `phi_f` 2 R*); l = 0 at bodies, so k2 = kp |
+//! | `luding_pm` (YADE `LudingPM`) | the same, only while d falls; k2 of the last step's m everywhere; line k2 (d - d0) with d0 = min((1 - k1/k2) m, `phi_f` 2 R*); l = 0 at bodies, so k2 = kp, and no force until d exceeds its first value |
 
 use crate::laws::{Approach, NormalLaw, NormalState, PairLaw};
 

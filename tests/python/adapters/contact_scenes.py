@@ -180,4 +180,16 @@ def luding_scenes() -> dict[str, Scene]:
         )
         scene = replace(whole, particles=slowed, steps=6000)
         found[name] = with_laws(scene, Model(law), f"luding/{name}")
+    # The floor above is met with an overlap of rounding size, these in the midst of a step.
+    part = found["floor"]
+    ball = replace(part.particles[0], position=(0.0, 0.0, 5.0011e-3))
+    found["floor/within"] = replace(part, particles=(ball,), variant="luding/floor/within")
+    # Pulled back from the floor: the vertex of its path lies 0.3 steps behind the first of two steps with an overlap.
+    weight = 10.0
+    speed = weight * 20000.3 * part.time_step
+    gap = speed * speed / (2.0 * weight) - 1.2e-12
+    ball = replace(ball, position=(0.0, 0.0, 5e-3 + gap), velocity=(0.0, 0.0, -speed))
+    found["floor/graze"] = replace(
+        part, particles=(ball,), gravity=(0.0, 0.0, weight), steps=20100, variant="luding/floor/graze"
+    )
     return found

@@ -1,0 +1,206 @@
+"""The checks of a gate that judges ensembles: beds of several seeds, by the observables of their case."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cross_check.compare.curve_ensembles import aligned, compare_curves
+from cross_check.compare.equivalence import equivalence
+from cross_check.compare.outcome import NATIVE, Outcome, Outcomes
+from cross_check.compare.quantity import Undefined
+from cross_check.compare.samples import BadSample, sample
+from cross_check.compare.verdicts import AGREE, DIFFER, FULL_ONLY, Comparison, Side, not_comparable
+from cross_check.engine import Case, Gate
+from cross_check.ensembles import Ensemble, ensemble
+from cross_check.record import Array, RecordError
+from cross_check.scene import Scene
+
+BOUND = "bound"
+# The smallest share of a stage: its last sample.
+LAST = 1e-12
+
+
+@dataclass(frozen=True)
+class Bed:
+    """One variant of a case with all its seeds: scenes and outcomes in the order of the seeds, one for each."""
+
+    case: str
+    variant: str
+    gates: tuple[Gate, ...]
+    scenes: tuple[Scene, ...]
+    outcomes: tuple[Outcomes, ...]
+    codes: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """`case/variant`."""
+        return f"{self.case}/{self.variant}" if self.variant else self.case
+
+    def of(self, source: str) -> list[Outcome]:
+        """The outcomes of a source, one for each seed."""
+        return [outcomes[source, 0] for outcomes in self.outcomes]
+
+    def ensemble(self, source: str) -> Ensemble:
+        """The ensemble of a source. Raises Undefined with the verdict of the first seed that has no record."""
+        outcomes = self.of(source)
+        missing = next((item.verdict for item in outcomes if item.measured is None), None)
+        if missing is not None:
+            raise Undefined(missing)
+        members = [item.measured for item in outcomes if item.measured is not None]
+        seeds = [seed for scene in self.scenes if (seed := scene.seed) is not None]
+        try:
+            return ensemble(members, seeds)
+        except RecordError as error:
+            raise Undefined(str(error)) from error
+
+    def recorded(self, source: str) -> bool:
+        """Whether a stored run stands in for any of a source."""
+        return source != BOUND and any(item.origin == "recorded" for item in self.of(source))
+
+    def observable(self, name: str) -> dict[str, Any]:
+        """What the case says about an observable: `name`, `measure`, `stage`, `average`, `minus`."""
+        return next(item for item in self.scenes[0].observables if item["name"] == name)
+
+    def values(self, source: str, name: str) -> Array:
+        """An observable of every seed, shape (n,). Raises Undefined."""
+        members = self.ensemble(source)
+        stated = self.observable(name)
+        try:
+            found = members.values(name, stated["stage"], max(float(stated["average"]), LAST))
+        except RecordError as error:
+            raise Undefined(str(error)) from error
+        return found if stated.get("minus") is None else found - self.values(source, stated["minus"])
+
+    def unit(self, name: str) -> str:
+        """The unit of an observable, by the first record that there is."""
+        records = (item.measured for outcomes in self.outcomes for item in outcomes.values())
+        return next((record.units[name] for record in records if record is not None and name in record.units), "-")
+
+
+def beds(case: Case, results: dict[str, Outcomes], codes: tuple[str, ...]) -> Iterator[Bed]:
+    """The variants of a case whose ensembles are judged."""
+    names = dict.fromkeys(variant.name for variant in case.variants)
+    for name in names:
+        members = [variant for variant in case.variants if variant.name == name]
+        gates = tuple(gate for gate in members[0].gates if gate.check in ENSEMBLE_CHECKS)
+        if gates:
+            scenes = tuple(variant.scenes[0] for variant in members)
+            yield Bed(case.name, name, gates, scenes, tuple(results[scene.name] for scene in scenes), codes)
+
+
+def compare_ensembles(bed: Bed) -> Iterator[Comparison]:
+    """All comparisons of all gates of a bed, and of what is recorded with what ran now."""
+    for gate in bed.gates:
+        yield from ENSEMBLE_CHECKS[gate.check](bed, gate)
+
+
+def _comparison(
+    bed: Bed, gate: Gate, left: Side, right: Side, discrepancy: float | None, verdict: str, note: str = ""
+) -> Comparison:
+    return Comparison(
+        case=bed.name,
+        level=bed.scenes[0].level,
+        check=gate.check,
+        quantity=gate.quantity,
+        unit=bed.unit(gate.quantity),
+        left=left,
+        right=right,
+        discrepancy=discrepancy,
+        scale=gate.scale,
+        bound=gate.bound,
+        bound_source=gate.bound_source,
+        verdict=verdict,
+        expected="",
+        note=note,
+    )
+
+
+def _undecided(bed: Bed, gate: Gate, left: str, right: str, why: Exception) -> Comparison:
+    text = str(why)
+    verdict = text if text.startswith(("not-run", "not-comparable")) else not_comparable(text)
+    sides = [Side(source, None, None, recorded=bed.recorded(source)) for source in (left, right)]
+    return _comparison(bed, gate, sides[0], sides[1], None, verdict)
+
+
+def _margin(gate: Gate, native: float) -> float:
+    """The margin in the unit of the observable."""
+    return gate.bound * abs(native) if gate.scale == "relative" else gate.bound
+
+
+def _means(bed: Bed, gate: Gate) -> Iterator[Comparison]:
+    """Two one-sided tests of native with each code."""
+    for code in bed.codes:
+        try:
+            left, right = bed.values(NATIVE, gate.quantity), bed.values(code, gate.quantity)
+            margin = _margin(gate, float(np.mean(left)))
+            found = equivalence(left, right, margin)
+        except (Undefined, BadSample) as why:
+            yield _undecided(bed, gate, NATIVE, code, why)
+            continue
+        sides = [
+            Side(source, side.mean, side.standard_error, "ensemble", recorded=bed.recorded(source))
+            for source, side in ((NATIVE, found.left), (code, found.right))
+        ]
+        discrepancy = abs(found.difference) * gate.bound / margin
+        note = found.describe(bed.unit(gate.quantity))
+        yield _comparison(bed, gate, sides[0], sides[1], discrepancy, found.verdict, note)
+
+
+def _curves(bed: Bed, gate: Gate) -> Iterator[Comparison]:
+    """Largest difference of the mean curves of native and each code, against a band of resampled seeds."""
+    for code in bed.codes:
+        try:
+            times, (left, right) = curves(bed, gate.quantity, NATIVE, code)
+            found = compare_curves(times, left, right, gate.bound)
+        except (Undefined, BadSample) as why:
+            yield _undecided(bed, gate, NATIVE, code, why)
+            continue
+        at = int(np.searchsorted(times, found.time))
+        sides = [
+            Side(source, float(means[at]), float(found.half_width), "ensemble", recorded=bed.recorded(source))
+            for source, means in ((NATIVE, found.left_mean), (code, found.right_mean))
+        ]
+        note = found.describe(bed.unit(gate.quantity))
+        yield _comparison(bed, gate, sides[0], sides[1], found.largest, found.verdict, note)
+
+
+def curves(bed: Bed, name: str, *sources: str) -> tuple[Array, list[Array]]:
+    """An observable over the whole run at common times (T,) [s], one array (n, T) per source. Raises Undefined."""
+    groups: list[list[tuple[Array, Array]]] = []
+    for source in sources:
+        members = bed.ensemble(source).members
+        if any(member[name].ndim != 1 for member in members):
+            raise Undefined(f"{name} is a list of numbers at each time, not one")
+        groups.append([(member.time, member[name]) for member in members])
+    return aligned(*groups)
+
+
+def _worst(bed: Bed, gate: Gate, largest: bool) -> Iterator[Comparison]:
+    """Every seed of every source on the right side of the bound."""
+    for source in (NATIVE, *bed.codes):
+        try:
+            values = bed.values(source, gate.quantity)
+        except Undefined as why:
+            yield _undecided(bed, gate, source, BOUND, why)
+            continue
+        worst = float(np.max(values) if largest else np.min(values))
+        beyond = worst - gate.bound if largest else gate.bound - worst
+        left = Side(source, worst, None, recorded=bed.recorded(source))
+        right = Side(BOUND, gate.bound, 0.0)
+        seeds = f"{'largest' if largest else 'smallest'} of {len(values)} seeds"
+        mean = f", mean {sample(values, source).mean:.6g}" if len(values) > 1 else ""
+        verdict = DIFFER if math.isnan(beyond) or beyond > 0.0 else AGREE
+        yield _comparison(bed, gate, left, right, max(beyond, 0.0), verdict, seeds + mean)
+
+
+ENSEMBLE_CHECKS: dict[str, Callable[[Bed, Gate], Iterator[Comparison]]] = {
+    "equivalence": _means,
+    "equivalence_curve": _curves,
+    "at_least": lambda bed, gate: _worst(bed, gate, largest=False),
+    "at_most": lambda bed, gate: _worst(bed, gate, largest=True),
+}

@@ -1,0 +1,63 @@
+"""From run records to measured records: the observables of a case, by the functions of the engine, for every code."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+import crossgrain
+from cross_check.engine import CaseError
+from cross_check.measured import Measured
+from cross_check.record import Array, RunRecord
+from cross_check.scene import Scene
+
+# The stage of a run that has none.
+RUN = "run"
+COLUMNS = ("time", "position", "angular_velocity", "force", "body_force")
+CONTACTS = ("contact_start", "contact_pair", "contact_force")
+
+
+def measure(scene: Scene, record: RunRecord) -> Measured:
+    """The observables of a scene over the samples of a record. Raises CaseError where one is not defined there."""
+    columns = {name: record[name] for name in (*COLUMNS, *CONTACTS) if name in record.columns}
+    columns["velocity"] = record.synchronized_velocity()
+    names = [stage.name for stage in scene.stages]
+    series: dict[str, Array] = {}
+    # Pairs change from stage to stage: an observable sees those of its own.
+    for stage in dict.fromkeys(item["stage"] for item in scene.observables):
+        asked = json.dumps([item for item in scene.observables if item["stage"] == stage])
+        try:
+            series |= crossgrain.measure(asked, _system(scene.at_stage(names.index(stage))), columns)
+        except ValueError as error:
+            raise CaseError(f"{scene.name}, {record.header.source}: {error}") from error
+    ends = scene.stage_ends()
+    return Measured(
+        header=record.header,
+        time=record["time"],
+        stage=np.searchsorted(ends, record.step, side="left").astype(np.int64),
+        stages=tuple(names) or (RUN,),
+        series={item["name"]: series[item["name"]] for item in scene.observables},
+        units=crossgrain.measure_units(json.dumps(scene.observables)),
+    )
+
+
+def _system(scene: Scene) -> str:
+    """What does not change during a record, as the engine reads it."""
+    system: dict[str, Any] = {
+        "radius": [particle.radius for particle in scene.particles],
+        "mass": [particle.mass for particle in scene.particles],
+        "moment_of_inertia": [particle.moment_of_inertia for particle in scene.particles],
+        "material": [particle.material for particle in scene.particles],
+        "gravity": scene.gravity,
+        "domain": asdict(scene.domain),
+        "bodies": [
+            {"name": body.name, "material": body.material, "shape": asdict(body.shape)} for body in scene.bodies
+        ],
+        "friction": [
+            {"between": pair.between, "value": pair.friction} for pair in scene.pairs if pair.friction is not None
+        ],
+    }
+    return json.dumps(system)

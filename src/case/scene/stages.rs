@@ -1,0 +1,70 @@
+//! The stages of a run: what changes at their beginnings.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Scene, SceneMotion, mixed, si};
+use crate::case::model::PairValues;
+use crate::case::protocol::{Action, Motion};
+use crate::case::schema::Case;
+use crate::material::PairProperties;
+
+/// One stage of a run.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneStage {
+    pub name: String,
+    pub steps: u64,
+    pub actions: Vec<SceneAction>,
+}
+
+/// What changes at the beginning of a stage: after the sample of that step, before the next step.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub enum SceneAction {
+    SetPair { pair: PairProperties },
+    SetMotion { body: usize, motion: SceneMotion },
+    SetGravity { value: [f64; 3] },
+}
+
+/// The stages of a case, `steps` long each. A run of one stage in which nothing is measured needs none; neither do
+/// driven particles, whose paths have their own.
+pub fn resolve(case: &Case, scene: &Scene, steps: &[u64]) -> Vec<SceneStage> {
+    let changes = |action: &Action| !matches!(action, Action::Drive { .. });
+    if case.observables.is_empty() && !case.stages.iter().flat_map(|stage| &stage.actions).any(changes) {
+        return Vec::new();
+    }
+    let mut values: Vec<PairValues> = case.pairs.iter().map(|pair| pair.values.clone()).collect();
+    let stages = case.stages.iter().zip(steps).map(|(stage, steps)| SceneStage {
+        name: stage.name.clone(),
+        steps: *steps,
+        actions: stage.actions.iter().filter_map(|action| resolved(case, scene, &mut values, action)).collect(),
+    });
+    stages.collect()
+}
+
+/// An action in SI and by index. None for a change of materials that the scene does not have.
+fn resolved(case: &Case, scene: &Scene, values: &mut [PairValues], action: &Action) -> Option<SceneAction> {
+    match action {
+        Action::SetPair { between: [first, second], values: new } => {
+            let stated =
+                |[one, other]: &[String; 2]| [one, other] == [first, second] || [other, one] == [first, second];
+            let at = case.pairs.iter().position(|pair| stated(&pair.between))?;
+            values[at].update(new);
+            let index = |name: &String| scene.materials.iter().position(|material| material.name == *name);
+            let between = [index(first)?, index(second)?];
+            Some(SceneAction::SetPair { pair: mixed(&scene.materials, between, &values[at]) })
+        }
+        Action::SetMotion { body, motion } => {
+            let body = scene.bodies.iter().position(|one| one.name == *body)?;
+            let motion = match motion {
+                Motion::Prescribed { velocity } => SceneMotion::Prescribed { velocity: si(velocity) },
+                _ => SceneMotion::Fixed,
+            };
+            Some(SceneAction::SetMotion { body, motion })
+        }
+        Action::SetGravity { value } => Some(SceneAction::SetGravity { value: si(value) }),
+        _ => None,
+    }
+}
