@@ -1,8 +1,11 @@
 """The native discrete element engine and the case schema."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 __version__: str
 OBSERVABLES: str
@@ -19,6 +22,23 @@ def schema() -> str:
 
 def run_scene(scene: str, out: str | Path, threads: int = ...) -> None:
     """Runs a scene given as JSON and writes its record into the folder `out`."""
+
+def measure(observables: str, context: str, columns: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:
+    """Measures the samples of a record of any code: an array (T,) or (T, K) in SI units for every observable.
+
+    `observables` is a JSON list of `{"name": ..., "measure": {"kind": ...}}`, as in a case; other keys do not matter.
+    `context` is a JSON object with `radius` [m], `mass` [kg], `moment_of_inertia` [kg m2] and optionally `material` of
+    the N particles, `gravity` [m/s2], `domain` and the B `bodies` as in a scene, and optionally `friction`: a list of
+    `{"between": [material, material], "value": ...}`. `columns` are those of a record (docs/formats.md): `time` (T,) and
+    `position` (T, N, 3) always, the others where an observable needs them; `body_point` (T, B, 3) [m] where bodies move
+    and `radius` (T, N) [m] where radii change. Values that are not defined are NaN.
+
+    Raises `ValueError` for JSON, shapes, values and columns that do not fit, and for an observable that needs a column
+    that is not there.
+    """
+
+def measure_units(observables: str) -> dict[str, str]:
+    """SI units of observables by name; `-` for a number. `observables` as for `measure`."""
 
 def main(arguments: Sequence[str | os.PathLike[str]]) -> int:
     """Runs the command line `crossgrain ARGUMENTS` and returns its exit code."""

@@ -84,6 +84,20 @@ pub enum Error {
         /// Step at which this was seen.
         step: u64,
     },
+    /// An observable that cannot be measured.
+    #[error("observable {observable}: {reason}")]
+    Measure {
+        /// Name of the observable.
+        observable: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Columns of a record that do not fit together.
+    #[error("record: {reason}")]
+    Columns {
+        /// What is wrong.
+        reason: String,
+    },
     /// No scene of the case has the wanted name.
     #[error("no variant `{wanted}` (known: {known})")]
     UnknownVariant {

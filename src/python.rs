@@ -2,6 +2,8 @@
 
 use pyo3::prelude::*;
 
+mod observables;
+
 /// The native discrete element engine and the case schema.
 #[pymodule(name = "crossgrain")]
 #[expect(clippy::needless_pass_by_value, reason = "Python hands over owned arguments, map_err owned errors")]
@@ -14,6 +16,8 @@ mod module {
 
     use crate::{Error, case, cli, simulation};
 
+    #[pymodule_export]
+    use super::observables::{measure, measure_units};
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "the name that Python gives to versions")]
     const __version__: &str = env!("CARGO_PKG_VERSION");

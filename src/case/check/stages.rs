@@ -3,7 +3,6 @@
 use std::collections::HashSet;
 
 use super::{Checker, is_name};
-use crate::case::measure::{Measure, Region};
 use crate::case::model::NormalLaw;
 use crate::case::protocol::{Action, Course, End, HeatTarget};
 use crate::case::quantity::Duration;
@@ -148,12 +147,13 @@ impl Checker<'_> {
     pub(super) fn observables(&mut self) {
         let case = self.case;
         let stages: Vec<_> = case.stages.iter().map(|stage| stage.name.as_str()).collect();
+        let bodies: Vec<_> = case.bodies.iter().map(|body| body.name.as_str()).collect();
         for (i, observable) in case.observables.iter().enumerate() {
             let key = |name: &str| format!("observables.{i}.{name}");
             self.known(key("stage"), &observable.stage, "stage", &stages);
             let allowed = |value| (0.0..=1.0).contains(&value);
             self.number(key("average"), observable.average, allowed, "a share of the stage, in [0, 1]");
-            self.measure(&key("measure"), &observable.measure);
+            self.problems.extend(observable.measure.problems(&key("measure"), &bodies));
             if let Some(other) = &observable.minus {
                 let before: Vec<_> = case.observables[..i].iter().map(|one| one.name.as_str()).collect();
                 self.known(key("minus"), other, "observable before this one", &before);
@@ -166,49 +166,6 @@ impl Checker<'_> {
                 self.known(format!("gates.{i}.quantity"), &gate.quantity, "observable in this case", &names);
             } else if !is_name(&gate.quantity, "-_") {
                 self.add(format!("gates.{i}.quantity"), &gate.quantity, "a name has letters, digits, `-` and `_`");
-            }
-        }
-    }
-
-    fn measure(&mut self, at: &str, measure: &Measure) {
-        match measure {
-            Measure::PackingFraction { region, .. }
-            | Measure::Coordination { region }
-            | Measure::Temperature { region } => {
-                self.measured_region(&format!("{at}.region"), region);
-            }
-            Measure::WallForce { body, direction } | Measure::WallStress { body, direction } => {
-                self.known_body(format!("{at}.body"), body);
-                self.direction(format!("{at}.direction"), direction);
-            }
-            Measure::WallLineStress { body, direction, between } => {
-                self.known_body(format!("{at}.body"), body);
-                self.direction(format!("{at}.direction"), direction);
-                self.two_bodies(at, between);
-            }
-            Measure::Distance { between } => self.two_bodies(at, between),
-            Measure::HeatFlow { body } => self.known_body(format!("{at}.body"), body),
-            Measure::NormalForces { .. } | Measure::Overlaps { .. } | Measure::LargestFragment {} => {}
-        }
-    }
-
-    fn two_bodies(&mut self, at: &str, names: &[String; 2]) {
-        for (side, name) in names.iter().enumerate() {
-            self.known_body(format!("{at}.between.{side}"), name);
-        }
-    }
-
-    fn measured_region(&mut self, at: &str, region: &Region) {
-        match region {
-            Region::Everything {} => {}
-            Region::Box { min, max } => {
-                let keys = [format!("{at}.min"), format!("{at}.max")];
-                self.corners([&keys[0], &keys[1]], min, max);
-            }
-            Region::Bed { floor, above_floor, below_surface } => {
-                self.known_body(format!("{at}.floor"), floor);
-                self.not_negative(format!("{at}.above_floor"), *above_floor);
-                self.not_negative(format!("{at}.below_surface"), *below_surface);
             }
         }
     }
