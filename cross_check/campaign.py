@@ -27,8 +27,9 @@ from cross_check.compare.outcome import Outcome
 from cross_check.compare.verdicts import FULL_ONLY, Comparison
 from cross_check.curves import curves, drawn, sweeps
 from cross_check.engine import Case, CaseError, load_case
+from cross_check.histories import histories
 from cross_check.record import RecordError, read
-from cross_check.report.campaign import Campaign, CaseInfo, SourceRun
+from cross_check.report.campaign import Campaign, CaseInfo, CurveSet, SourceRun
 from cross_check.scene import Scene
 
 INDEX = "campaign.json"
@@ -101,7 +102,7 @@ def write(
                 item
                 for case in finished.cases
                 for name in drawn(case, finished.results)
-                for item in curves(name, finished.results[name], finished.codes)
+                for item in _figures(case, name, finished)
             ]
             + [item for case in finished.cases for item in bed_curves(case, finished.results, finished.codes)],
             sweeps=[
@@ -117,6 +118,13 @@ def write(
         pdf,
     )
     return page, verdicts
+
+
+def _figures(case: Case, name: str, finished: Finished) -> list[CurveSet]:
+    """The curves of a scene: those of an impact, or the course of what the case compares."""
+    outcomes = finished.results[name]
+    impact = list(curves(name, outcomes, finished.codes))
+    return impact or list(histories(case, name, outcomes, finished.codes))
 
 
 def _left_out(finished: Finished) -> list[str]:

@@ -13,8 +13,12 @@ author = "the Crossgrain authors"
 project_copyright = "2026, the Crossgrain authors"
 release = version = _VERSION.group(1) if _VERSION else ""
 
-# The second extension brings MathJax itself, so that a page shows its formulas without a network.
-extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinx-mathjax-offline"]
+# The third extension brings MathJax itself, so that a page shows its formulas without a network.
+extensions = ["myst_nb", "sphinx.ext.mathjax", "sphinx-mathjax-offline"]
+# Notebooks are kept without results and run when the site is built; one that fails fails the build.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
 myst_enable_extensions = ["amsmath", "dollarmath"]
 myst_heading_anchors = 3
 exclude_patterns = ["_build"]

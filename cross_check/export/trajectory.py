@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from cross_check.engine import Case
 from cross_check.geometry import facing, nearest
 from cross_check.record import UNITS, Array, Header, RunRecord
-from cross_check.scene import Body, Scene, Shape
+from cross_check.scene import Scene, Shape
 
 Index = NDArray[np.int64]
 
 CONTACT_COLUMNS = ("contact_start", "contact_pair", "contact_force")
-PLAIN = ("step", "time", "position", *CONTACT_COLUMNS)
+PLAIN = ("step", "time", "position")
 #: A contact longer than this multiple of the sum of the radii is one across a periodic face [-].
 LONGEST_CONTACT = 2.0
 
@@ -126,7 +126,7 @@ class Trajectory:
             found.append(Field("material", "-", np.broadcast_to(materials, (self.samples, self.count))))
         shapes = ((self.samples, self.count), (self.samples, self.count, 3))
         for name, column in self.record.columns.items():
-            if name not in PLAIN and not name.startswith(("body_", "energy_")) and column.shape in shapes:
+            if name not in PLAIN and not name.startswith(("body_", "energy_", "contact_")) and column.shape in shapes:
                 found.append(Field(name, UNITS.get(name, "-"), column))
         return found
 
@@ -139,7 +139,7 @@ class Trajectory:
         found: list[Series] = []
         for name, column in self.record.columns.items():
             unit = UNITS.get(name, "-")
-            if name in PLAIN:
+            if name in PLAIN or name.startswith("contact_"):
                 continue
             if column.ndim == 1:
                 found.append(Series(name, unit, column))
@@ -168,7 +168,7 @@ class Trajectory:
         """The shape of a body at a sample, or None where the record and the case do not tell where it is."""
         if self.scene is None:
             return None
-        return moved(self.scene.bodies[body], float(self.record["time"][sample]))
+        return moved(self.scene, body, int(self.record.step[sample]))
 
     def contacts(self, sample: int) -> Contacts:
         """The contacts of a sample. Raises ExportError where there are none to be had."""
@@ -220,14 +220,21 @@ class Trajectory:
         return centers - self.radius(sample)[first][:, None] * along, np.full_like(force, np.nan)
 
 
-def moved(body: Body, time: float) -> Shape | None:
-    """The shape of a body at a time [s], or None for a motion that the case does not prescribe."""
-    if body.motion.kind == "fixed":
-        return body.shape
-    if body.motion.kind == "prescribed" and body.motion.velocity is not None:
-        x, y, z = (p + v * time for p, v in zip(body.shape.point, body.motion.velocity, strict=True))
-        return replace(body.shape, point=(x, y, z))
-    return None
+def moved(scene: Scene, body: int, step: int) -> Shape | None:
+    """The shape of a body at a step, through the stages of the scene, or None for a motion that is not prescribed."""
+    shape, begin = scene.bodies[body].shape, 0
+    point = np.array(shape.point)
+    for index, length in enumerate([stage.steps for stage in scene.stages] or [scene.steps]):
+        motion = scene.at_stage(index).bodies[body].motion
+        if motion.kind not in ("fixed", "prescribed"):
+            return None
+        lasted = min(step - begin, length) * scene.time_step
+        point = point + lasted * np.array(motion.velocity or (0.0, 0.0, 0.0))
+        begin += length
+        if begin >= step:
+            break
+    x, y, z = point.tolist()
+    return replace(shape, point=(x, y, z))
 
 
 def scene_of(header: Header, case: Case) -> Scene:

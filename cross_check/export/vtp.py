@@ -83,6 +83,8 @@ def collection(
 ) -> list[Path]:
     """Writes `NAME.pvd`, and its pieces `NAME/000000.vtp` ... through `write_piece(path, sample)`; returns the PVD."""
     (folder / name).mkdir(parents=True, exist_ok=True)
+    for old in (folder / name).glob(f"[0-9]*{suffix}"):
+        old.unlink()  # of a longer run that was exported to the same folder
     root = ElementTree.Element("VTKFile", type="Collection", version="1.0", byte_order="LittleEndian")
     pieces = ElementTree.SubElement(root, "Collection")
     for sample, time in enumerate(trajectory.record["time"]):

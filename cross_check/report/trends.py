@@ -33,7 +33,7 @@ def _draw(trend: Trend, folder: Path, pdf: bool) -> Figured:
     title = f"Trend of {trend.measure.name}"
     stem = folder / notation.slug(f"{scene} {title}")
     svg = save(lambda: _lay_out(trend), stem, title, pdf)
-    return Figured(scene, title, stem.name, svg, False, [])
+    return Figured(scene, title, stem.name, svg, False, [], pdf)
 
 
 def _lay_out(trend: Trend) -> Figure:

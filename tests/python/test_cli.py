@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import json
+import os
 import shutil
 from pathlib import Path
 from typing import Any
@@ -100,6 +102,17 @@ def test_the_matrix_of_a_part_of_the_codes_is_complete(tmp_path: Path, monkeypat
     assert {item["right"]["source"] for item in verdicts(tmp_path / "out") if item["check"] == "plain"} == {"yade"}
 
 
+def test_a_case_that_is_no_impact_has_figures_of_what_it_compares(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert call("run", "free-fall", "--out", str(out)).exit_code == AS_EXPECTED
+    drawn = [path.read_text() for path in (out / "report" / "figures").glob("*.svg")]
+    assert len(drawn) == 1
+    page = (out / "report" / "index.html").read_text()
+    assert "Largest displacement over time" in page
+    for code in ADAPTERS:
+        assert f"{code} - native[{code}]" in page
+
+
 def test_list_and_doctor_answer_in_json() -> None:
     listed = json.loads(call("list").output)
     assert "standard" in listed["suites"]
@@ -113,6 +126,32 @@ def test_doctor_says_how_to_get_what_is_missing(monkeypatch: pytest.MonkeyPatch)
     without_codes(monkeypatch)
     parts = {part["name"]: part for part in json.loads(call("doctor").output)}
     assert "apt-get install yade" in parts["yade"]["advice"]
+
+
+def test_doctor_tells_optional_python_parts_and_cores(monkeypatch: pytest.MonkeyPatch) -> None:
+    there = importlib.metadata.version
+
+    def version(name: str) -> str:
+        if name in ("pandas", "meshio"):
+            raise importlib.metadata.PackageNotFoundError(name)
+        return there(name)
+
+    monkeypatch.setattr(importlib.metadata, "version", version)
+    monkeypatch.setattr(os, "cpu_count", lambda: 8)
+
+    def usable(process: int) -> set[int]:
+        assert process == 0
+        return {0, 1, 2}
+
+    monkeypatch.setattr(os, "sched_getaffinity", usable, raising=False)
+    parts = {part["name"]: part for part in json.loads(call("doctor").output)}
+    assert not parts["meshio"]["present"]
+    assert parts["meshio"]["advice"] == "pip install meshio"
+    assert parts["pandas"]["advice"].startswith("optional, for tables")
+    assert parts["numpy"]["version"] == there("numpy")
+    assert {"vtk", "nbclient", "ovito", "mpi"} <= set(parts)
+    assert parts["cores"]["version"].startswith("3 of 8")
+    assert "--jobs 3" in parts["cores"]["advice"]
 
 
 def test_decks_of_a_file_anywhere_are_the_same_bytes_twice(tmp_path: Path) -> None:

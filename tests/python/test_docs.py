@@ -195,7 +195,7 @@ def test_the_readme_lists_every_command() -> None:
 
 
 def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
-    for module in ("sphinx", "myst_parser", "furo", "sphinx-mathjax-offline"):
+    for module in ("sphinx", "myst_nb", "furo", "sphinx-mathjax-offline", "pandas"):
         if importlib.util.find_spec(module) is None:
             pytest.skip(f"{module} is not installed; the extra `docs` brings it")
     site, cached = tmp_path / "site", tmp_path / "doctrees"
@@ -207,4 +207,8 @@ def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
     assert any("mathjax" in source for source in scripts)
     assert [source for source in scripts if "//" in source] == [], "the page asks the network for a script"
     assert (site / "_static" / "mathjax" / "tex-chtml.js").is_file()
+    notebook = (site / "notebooks" / "first_bed.html").read_text()
+    assert notebook.count("<img") == 2, "the notebook shows its two figures"
+    assert "weight 0.0107" in notebook, "the notebook has run"
+    assert re.findall(r'<(?:script|img)[^>]*src="(?:https?:)?//', notebook) == []
     shutil.rmtree(site)

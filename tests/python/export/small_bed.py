@@ -1,17 +1,12 @@
-"""A small bed that the native engine runs, for the tests of exported files, with contacts put beside its columns."""
+"""A small bed that the native engine runs, for the tests of exported files."""
 
 from __future__ import annotations
 
-# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false, reportUnknownArgumentType=false
-# numpy leaves the shapes of arrays untyped.
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
 from cross_check.engine import Case, load_case, run
-from cross_check.geometry import facing, nearest
-from cross_check.record import Array, RunRecord
+from cross_check.record import RunRecord
 from cross_check.scene import Scene
 
 CASE = """
@@ -92,10 +87,16 @@ step = { kind = "fixed", value = "2e-6 s" }
 
 [[stages]]
 name = "fall"
-end = { kind = "duration", value = "80 ms" }
+end = { kind = "duration", value = "40 ms" }
+
+[[stages]]
+name = "stop"
+end = { kind = "duration", value = "40 ms" }
+actions = [{ do = "set_motion", body = "sliding", motion = { kind = "prescribed", velocity = [0, 0, "0.2 m/s"] } }]
 
 [output]
 every = 4000
+contacts = true
 
 [[gates]]
 quantity = "position_history"
@@ -121,7 +122,7 @@ def write_case(folder: Path) -> Path:
 
 @dataclass(frozen=True)
 class Bed:
-    """A case, its scene, the folder of its record, and the record with contacts."""
+    """A case, its scene, and the folder of its record with the record in it."""
 
     case: Case
     scene: Scene
@@ -133,31 +134,10 @@ def make(folder: Path) -> Bed:
     """Runs the case in `folder`."""
     case = load_case(write_case(folder))
     scene = case.variants[0].scenes[0]
-    record = run(scene, folder / "record")
-    return Bed(case, scene, folder / "record", with_contacts(scene, record))
+    return Bed(case, scene, folder / "record", run(scene, folder / "record"))
 
 
-def with_contacts(scene: Scene, record: RunRecord) -> RunRecord:
-    """The record with every overlap as a contact, by brute force, under forces of a fixed pattern."""
-    position, radius = record["position"], np.array(record.header.radius)
-    rows: list[tuple[int, int]] = []
-    start = [0]
-    for sample, time in enumerate(record["time"]):
-        for i in range(len(radius)):
-            for j in range(i + 1, len(radius)):
-                branch = nearest(scene.domain, position[sample, j] - position[sample, i])
-                if np.linalg.norm(branch) < radius[i] + radius[j]:
-                    rows.append((i, j))
-            for number, body in enumerate(scene.bodies):
-                velocity = np.array(body.motion.velocity or (0, 0, 0))
-                _, distance = facing(body.shape, position[sample, i : i + 1] - velocity * time)
-                if distance[0] < radius[i]:
-                    rows.append((i, len(radius) + number))
-        start.append(len(rows))
-    force: Array = np.random.default_rng(5).normal(size=(len(rows), 3))
-    columns = {
-        "contact_start": np.array(start, dtype=np.int64),
-        "contact_pair": np.array(rows, dtype=np.int64).reshape(-1, 2),
-        "contact_force": force,
-    }
-    return replace(record, columns=record.columns | columns)
+def without_contacts(record: RunRecord) -> RunRecord:
+    """The record as one that tells no contacts."""
+    columns = {name: column for name, column in record.columns.items() if not name.startswith("contact_")}
+    return replace(record, columns=columns)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from small_bed import Bed
+from small_bed import Bed, without_contacts
 
 from cross_check import export
 
@@ -77,9 +77,7 @@ def test_atoms_are_the_particles_of_the_record(bed: Bed, folder: Path) -> None:
 
 
 def test_without_a_case_the_box_holds_every_particle_and_positions_are_exact(bed: Bed, tmp_path: Path) -> None:
-    from cross_check.record import read
-
-    export.write(read(bed.folder), "dump", tmp_path)
+    export.write(without_contacts(bed.record), "dump", tmp_path)
     assert not (tmp_path / "contacts.dump").exists()
     for sample, frame in enumerate(frames(tmp_path / "particles.dump", "ATOMS")):
         assert frame["boundary"] == ["ff", "ff", "ff"]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
-from small_bed import Bed
+from small_bed import Bed, without_contacts
 
 from cross_check import export
 from cross_check.cli import AS_EXPECTED, BAD_INPUT, main
@@ -47,7 +47,11 @@ def test_a_record_folder_becomes_files_that_are_named(bed: Bed, tmp_path: Path, 
     ],
 )
 def test_bad_requests_are_refused(bed: Bed, tmp_path: Path, arguments: tuple[str, ...], words: str) -> None:
-    done = call(bed.folder, "--out", tmp_path / "out", *arguments)
+    folder = bed.folder
+    if "holds no contacts" in words:
+        folder = tmp_path / "record"
+        without_contacts(bed.record).write(folder)
+    done = call(folder, "--out", tmp_path / "out", *arguments)
     assert done.exit_code == BAD_INPUT
     assert words in done.output
     assert len(done.output.strip().splitlines()) == 1
@@ -108,6 +112,6 @@ def broken(**changes: Any) -> dict[str, Any]:
     ],
 )
 def test_contacts_that_do_not_fit_are_refused(bed: Bed, tmp_path: Path, columns: dict[str, Any], words: str) -> None:
-    plain = {name: values for name, values in bed.record.columns.items() if not name.startswith("contact_")}
+    plain = without_contacts(bed.record).columns
     with pytest.raises(ExportError, match=re.escape(words)):
         export.write(replace(bed.record, columns=plain | columns), "csv", tmp_path)

@@ -11,11 +11,12 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from small_bed import Bed
+from small_bed import Bed, without_contacts
 
 from cross_check import export
 from cross_check.export.trajectory import Trajectory
 from cross_check.geometry import nearest
+from cross_check.record import read
 
 TYPES = {"Float64": "<f8", "Int64": "<i8"}
 
@@ -96,6 +97,29 @@ def test_contacts_run_between_nearest_images_and_to_the_walls(bed: Bed, folder: 
     assert walls > 0
 
 
+def test_pieces_of_a_longer_run_are_removed(bed: Bed, tmp_path: Path) -> None:
+    (tmp_path / "particles").mkdir()
+    for name in ("000099.vtp", "mine.vtp"):
+        (tmp_path / "particles" / name).write_text("old")
+    export.write(without_contacts(read(bed.folder)), "pvd", tmp_path)
+    left = {path.name for path in (tmp_path / "particles").iterdir()}
+    assert left == {"mine.vtp"} | {f"{sample:06}.vtp" for sample in range(11)}
+
+
+def test_contact_forces_add_up_press_and_stay_below_the_cap(bed: Bed, folder: Path) -> None:
+    for sample, (_, path) in enumerate(pieces(folder / "contacts.pvd")):
+        read = arrays(path)
+        total = np.zeros((25, 3))
+        np.add.at(total, read["CellData/id1"], read["CellData/force"])
+        among = read["CellData/kind"] == 0
+        np.add.at(total, read["CellData/id2"][among], -read["CellData/force"][among])
+        largest = np.abs(bed.record["force"][sample]).max()
+        assert np.allclose(total, bed.record["force"][sample], rtol=0, atol=1e-12 * largest)
+        pressing, sliding = read["CellData/normal_force"], read["CellData/tangential_force"]
+        assert np.all(pressing >= -1e-12 * largest)
+        assert np.all(sliding <= 0.5 * pressing + 1e-9 * largest)  # the normal and the friction of the case
+
+
 def test_the_force_of_a_wall_points_away_from_it(bed: Bed) -> None:
     trajectory = Trajectory(bed.record, bed.scene)
     floors = [trajectory.contacts(sample) for sample in range(trajectory.samples)]
@@ -111,7 +135,7 @@ def test_moving_walls_move_and_others_rest(bed: Bed, folder: Path) -> None:
     start, end = arrays(listed[0][1]), arrays(listed[-1][1])
     moved = end["Points/Points"] - start["Points/Points"]
     corners = start["Polys/connectivity"].reshape(-1, 3)
-    for body, way in enumerate(((0, 0, 0), (0, 0.1 * listed[-1][0], 0), (0, 0, 0))):
+    for body, way in enumerate(((0, 0, 0), (0, 0.1 * 0.04, 0.2 * 0.04), (0, 0, 0))):
         points = np.unique(corners[start["CellData/body"] == body])
         assert len(points)
         assert np.allclose(moved[points], way, atol=1e-15)
