@@ -191,9 +191,17 @@ def read(path: Path) -> Baseline:
     return baseline
 
 
+def _member(raw: dict[str, Any]) -> Member:
+    typed = dict(raw)
+    typed["values"] = tuple(float(value) for value in raw["values"])
+    return Member(**typed)
+
+
 def _from_json(raw: dict[str, Any]) -> Entry:
-    members = tuple(Member(**{**member, "values": tuple(map(float, member["values"]))}) for member in raw["members"])
-    return Entry(**{**raw, "code": Code(**raw["code"]), "members": members})
+    typed = dict(raw)
+    typed["members"] = tuple(_member(member) for member in raw["members"])
+    typed["code"] = Code(**raw["code"])
+    return Entry(**typed)
 
 
 def recorded(case: str) -> list[Baseline]:

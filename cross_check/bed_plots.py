@@ -19,7 +19,7 @@ DRAWN = 400
 
 
 def bed_curves(case: Case, results: Results, codes: tuple[str, ...]) -> Iterator[CurveSet]:
-    """Ensemble means over time for every curve that is judged, and their distance from native in units of the margin."""
+    """Ensemble means over time for every curve that is judged, and their distance from native over the margin."""
     for bed in beds(case, results, codes):
         for gate in bed.gates:
             if gate.check == "equivalence_curve":
@@ -80,7 +80,7 @@ def _profiles(bed: Bed) -> Iterator[CurveSet]:
             if record is None or name not in record.series or record[name].ndim != 2:
                 continue
             values = record.values(name, stated["stage"], max(float(stated["average"]), 1e-12))
-            lines.append(Curve(source, np.arange(len(values)) + 0.5, values, bed.recorded(source)))
+            lines.append(Curve(source, np.arange(len(values), dtype=np.float64) + 0.5, values, bed.recorded(source)))
         if lines and lines[0].source == NATIVE:
             scale = float(np.max(np.abs(lines[0].y))) or 1.0
             yield CurveSet(

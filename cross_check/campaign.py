@@ -14,7 +14,7 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
 
-from cross_check import engine, measured, report, runs
+from cross_check import engine, measured, regression, report, runs
 from cross_check.adapters import ADAPTERS
 from cross_check.adapters.interface import Deck
 from cross_check.bed_plots import bed_curves, bed_seeds
@@ -80,6 +80,7 @@ def write(
     """
     verdicts = comparisons(finished, expected)
     outcomes = [outcome for group in finished.results.values() for outcome in group.values()]
+    changed, over_time = regression.changes(finished.cases, finished.results, finished.codes)
     page = report.write(
         folder,
         Campaign(
@@ -112,6 +113,8 @@ def write(
                 for plot in draw(case, finished.results, finished.codes)
             ],
             environment=environment(),
+            changes=changed,
+            trends=over_time,
             left_out=_left_out(finished),
             known_differences={name: str(entry["explanation"]).strip() for name, entry in known().items()},
         ),

@@ -31,7 +31,8 @@ class Measured:
     """Observables of one run of one scene by one source.
 
     `time` [s], shape (T,), increases; `stage` is the index into `stages` of the stage in which a sample was taken,
-    shape (T,), and does not decrease. NaN in a series stands where an observable is not defined. `series` holds (T,) or (T, K) per observable, `units` the unit of each.
+    shape (T,), and does not decrease. `series` holds (T,) or (T, K) per observable, NaN where it is not defined,
+    `units` the unit of each.
     """
 
     header: Header

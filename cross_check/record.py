@@ -157,8 +157,12 @@ class RunRecord:
             raise RecordError(f"{where}: column contact_start does not rise from 0 over {samples + 1} entries")
         rows = int(start[-1])
         if pair.shape != (rows, 2) or force.shape != (rows, 3):
-            raise RecordError(f"{where}: contact columns have shapes {pair.shape} and {force.shape} for {rows} contacts")
-        if rows and (pair.min() < 0 or pair[:, 0].max() >= count or pair[:, 1].max() >= count + len(self.header.bodies)):
+            raise RecordError(
+                f"{where}: contact columns have shapes {pair.shape} and {force.shape} for {rows} contacts"
+            )
+        if rows and (
+            pair.min() < 0 or pair[:, 0].max() >= count or pair[:, 1].max() >= count + len(self.header.bodies)
+        ):
             raise RecordError(f"{where}: column contact_pair names particles or bodies that are not there")
 
     def write(self, folder: Path, *, compress: bool = True) -> None:

@@ -6,7 +6,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from cross_check import reference, runs
+from cross_check import reference, regression, runs
 from cross_check.adapters import ADAPTERS
 from cross_check.cache import Cache
 from cross_check.engine import Case, CaseError
@@ -35,6 +35,7 @@ def refresh(cases: list[Case], progress: runs.Progress) -> tuple[int, int]:
             if outcome.record is None:
                 raise CaseError(f"{outcome.scene.name}, {source}: {outcome.verdict}")
             kept.add(reference.store(outcome.record, source))
+    regression.record(cases, results, codes)
     return len(kept), _prune(codes, {case.name for case in cases}, kept)
 
 

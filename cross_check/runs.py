@@ -36,8 +36,8 @@ class Options:
     """How runs are made.
 
     `full`: variants that the quick form leaves out run too. `live`: neither the cache nor recorded runs are used.
-    `recorded`: recorded runs may stand in for live ones. `any_version`: codes of versions other than the proved ones run
-    too. `time_limit` [s] holds for each deck; beds have a longer one where their size asks for it.
+    `recorded`: recorded runs may stand in for live ones. `any_version`: codes of versions that are not proved run, too.
+    `time_limit` [s] holds for each deck; beds have a longer one where their size asks for it.
     """
 
     codes: tuple[str, ...] = tuple(ADAPTERS)

@@ -331,7 +331,9 @@ def _horizon(bench: Bench) -> Iterator[Comparison]:
         window = found.deterministic_window
         left, right = Side(mirror, window, None), Side(code, float(found.times[-1]), None)
         short = max(bench.gate.bound - window, 0.0)
-        note = f"{mirror} and {code}: {trajectories.describe(found)}. {NATIVE} and {code}: {trajectories.describe(plain)}"
+        note = (
+            f"{mirror} and {code}: {trajectories.describe(found)}. {NATIVE} and {code}: {trajectories.describe(plain)}"
+        )
         yield bench.comparison(left, right, short, DIFFER if short > 0.0 else AGREE, note)
 
 

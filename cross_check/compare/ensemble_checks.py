@@ -9,20 +9,25 @@ from typing import Any
 
 import numpy as np
 
+from cross_check import reference
 from cross_check.compare.curve_ensembles import aligned, compare_curves
 from cross_check.compare.equivalence import equivalence
 from cross_check.compare.outcome import NATIVE, Outcome, Outcomes
 from cross_check.compare.quantity import Undefined
 from cross_check.compare.samples import BadSample, sample
-from cross_check.compare.verdicts import AGREE, DIFFER, FULL_ONLY, Comparison, Side, not_comparable
+from cross_check.compare.verdicts import AGREE, DIFFER, Comparison, Side, not_comparable
 from cross_check.engine import Case, Gate
 from cross_check.ensembles import Ensemble, ensemble
+from cross_check.measured import read as read_measured
 from cross_check.record import Array, RecordError
 from cross_check.scene import Scene
 
 BOUND = "bound"
 # The smallest share of a stage: its last sample.
 LAST = 1e-12
+# Time [s] within which another machine repeats a recorded bed, and how well: particles fall and begin to touch.
+DETERMINISTIC = 0.05
+SAME = 1e-6
 
 
 @dataclass(frozen=True)
@@ -97,6 +102,58 @@ def compare_ensembles(bed: Bed) -> Iterator[Comparison]:
     """All comparisons of all gates of a bed, and of what is recorded with what ran now."""
     for gate in bed.gates:
         yield from ENSEMBLE_CHECKS[gate.check](bed, gate)
+    for code in bed.codes:
+        yield from _as_recorded(bed, code)
+
+
+def _as_recorded(bed: Bed, code: str) -> Iterator[Comparison]:
+    """What ran now of a code against the recorded run of the same deck and version: nothing where there is none.
+
+    On the machine that recorded it every number is the same; elsewhere it is in the deterministic window, before the
+    rounding of another processor has grown.
+    """
+    outcome = next((item for item in bed.of(code) if item.origin in ("live", "cache")), None)
+    if outcome is None or outcome.measured is None or outcome.deck is None:
+        return
+    folder = reference.recorded_measured(code, outcome.deck.hash, outcome.scene)
+    if folder is None:
+        return
+    then, now = read_measured(folder), outcome.measured
+    if then.header.code.version != now.header.code.version:
+        return
+    same_machine = then.header.machine == now.header.machine
+    chosen = slice(None) if same_machine else now.time <= DETERMINISTIC
+    differences = [_unequal(then[name][chosen], now[name][chosen]) for name in then.series]
+    discrepancy = max(differences, default=0.0)
+    bound = 0.0 if same_machine else SAME
+    yield Comparison(
+        case=outcome.scene.name,
+        level=outcome.scene.level,
+        check="recorded",
+        quantity="observables",
+        unit="-",
+        left=Side(f"{code} as recorded", None, None, recorded=True),
+        right=Side(code, None, None),
+        discrepancy=discrepancy,
+        scale="range",
+        bound=bound,
+        bound_source="the same machine and version repeat every number"
+        if same_machine
+        else f"another machine repeats the first {DETERMINISTIC} s, before rounding has grown",
+        verdict=AGREE if discrepancy <= bound else DIFFER,
+        expected="",
+        note=f"{len(then.series)} observables, recorded on {then.header.machine}",
+    )
+
+
+def _unequal(then: Array, now: Array) -> float:
+    """Largest difference of two series over the range of the first; infinite where only one of them is defined."""
+    if then.shape != now.shape or not np.array_equal(np.isnan(then), np.isnan(now)):
+        return math.inf
+    if np.array_equal(then, now, equal_nan=True):
+        return 0.0
+    scale = float(np.nanmax(then) - np.nanmin(then)) or 1.0
+    return float(np.nanmax(np.abs(then - now))) / scale
 
 
 def _comparison(

@@ -17,13 +17,15 @@ QUANTITY = "trajectory"
 def parting(scene: Scene, outcomes: Outcomes, left: str, right: str) -> Divergence:
     """How the trajectories of two sources part, in units of the smallest diameter. Raises Undefined."""
     one, other = (outcomes[source, 0].record for source in (left, right))
-    missing = next((outcomes[source, 0].verdict for source in (left, right) if outcomes[source, 0].record is None), None)
+    missing = next(
+        (outcomes[source, 0].verdict for source in (left, right) if outcomes[source, 0].record is None), None
+    )
     if one is None or other is None:
         raise Undefined(missing or "no record")
     common = np.intersect1d(one.step, other.step)
-    places = [record["position"][np.isin(record.step, common)] for record in (one, other)]
+    left_places, right_places = (record["position"][np.isin(record.step, common)] for record in (one, other))
     diameter = 2.0 * min(particle.radius for particle in scene.particles)
-    return divergence(common * scene.time_step, *places, diameter)
+    return divergence(common * scene.time_step, left_places, right_places, diameter)
 
 
 def describe(found: Divergence) -> str:
@@ -33,7 +35,9 @@ def describe(found: Divergence) -> str:
         for limit, time in ((FINE, found.fine), (COARSE, found.coarse))
     ]
     growth = found.growth
-    rate = found.growth_note if growth is None else f"grows as exp({growth.rate:.3g} t / s) +- {growth.standard_error:.2g}"
+    rate = (
+        found.growth_note if growth is None else f"grows as exp({growth.rate:.3g} t / s) +- {growth.standard_error:.2g}"
+    )
     largest = float(np.max(found.largest)) / found.diameter
     return f"{', '.join(times)}; {rate}; at most {largest:.3g} d within {found.times[-1]:.4g} s"
 
