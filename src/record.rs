@@ -75,8 +75,10 @@ impl Recorder {
         ];
         let stored = ["energy_kinetic", "energy_elastic", "energy_gravity"];
         let received = ["energy_body_work", "energy_entered"];
-        let energies = stored.into_iter().chain(DISSIPATED).chain(received);
-        columns.extend(energies.map(|name| column(name, "J", &[])));
+        if scene.energies {
+            let energies = stored.into_iter().chain(DISSIPATED).chain(received);
+            columns.extend(energies.map(|name| column(name, "J", &[])));
+        }
         let mut header = header(scene);
         header["columns"]["step"] = json!("-");
         let contacts = scene.contacts.then(|| ContactColumns { start: vec![0], ..ContactColumns::default() });
