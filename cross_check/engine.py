@@ -13,8 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from numpy.typing import NDArray
+
 import crossgrain
-from cross_check.record import RecordError, RunRecord, read
+from cross_check.record import Code, Header, RecordError, RunRecord, read
 from cross_check.scene import Scene, from_json
 
 #: Names a program to read cases and run scenes with, in place of the module: engines with planted faults are such.
@@ -164,14 +166,17 @@ def build() -> str:
 
 
 def run(scene: Scene, folder: Path, threads: int = 1) -> RunRecord:
-    """Runs a scene and returns the record that it wrote into `folder`. Raises CaseError or RecordError."""
+    """Runs a scene and returns its record; a program in place of the module writes it into `folder` first.
+
+    Raises CaseError or RecordError.
+    """
     program = os.environ.get(PROGRAM_VARIABLE)
     if program is None:
         try:
-            crossgrain.run_scene(scene.to_json(), folder, threads)
+            header, columns = crossgrain.run(scene.to_json(), threads)
         except ValueError as error:
             raise CaseError(str(error)) from error
-        return read(folder)
+        return _record(json.loads(header), columns, scene.name)
     with tempfile.TemporaryDirectory() as scratch:
         path = Path(scratch) / "scene.json"
         path.write_text(scene.to_json())
@@ -180,6 +185,15 @@ def run(scene: Scene, folder: Path, threads: int = 1) -> RunRecord:
     if done.returncode != 0:
         raise RecordError(f"{scene.name}: {program} failed: {done.stderr.strip()}")
     return read(folder)
+
+
+def _record(header: dict[str, Any], columns: dict[str, NDArray[Any]], where: str) -> RunRecord:
+    """The checked record of a header and columns that the module hands over. Raises RecordError."""
+    typed = dict(header)
+    typed["code"] = Code(**header["code"])
+    record = RunRecord(Header(**typed), columns)
+    record.check(where)
+    return record
 
 
 def main() -> None:

@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 
 mod observables;
+mod records;
 
 /// The native discrete element engine and the case schema.
 #[pymodule(name = "crossgrain")]
@@ -18,6 +19,8 @@ mod module {
 
     #[pymodule_export]
     use super::observables::{measure, measure_units};
+    #[pymodule_export]
+    use super::records::run;
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "the name that Python gives to versions")]
     const __version__: &str = env!("CARGO_PKG_VERSION");

@@ -33,8 +33,28 @@ pub const DISSIPATED: [&str; 5] =
 struct Column {
     name: &'static str,
     unit: &'static str,
-    shape: Vec<u64>,
+    shape: Vec<usize>,
     values: Vec<f64>,
+}
+
+/// A whole column of a record.
+#[derive(Debug)]
+pub struct RecordColumn {
+    /// Name.
+    pub name: &'static str,
+    /// Shape, samples first.
+    pub shape: Vec<usize>,
+    /// Values in C order.
+    pub values: Values,
+}
+
+/// Values of a column.
+#[derive(Debug)]
+pub enum Values {
+    /// Real numbers.
+    Real(Vec<f64>),
+    /// Counts and indices.
+    Count(Vec<i64>),
 }
 
 /// Collects samples of a run and writes them.
@@ -62,8 +82,8 @@ impl Recorder {
     /// A recorder for `scene`, with no samples.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        let (particles, bodies) = (scene.particles.len() as u64, scene.bodies.len() as u64);
-        let column = |name, unit, shape: &[u64]| Column { name, unit, shape: shape.to_vec(), values: Vec::new() };
+        let (particles, bodies) = (scene.particles.len(), scene.bodies.len());
+        let column = |name, unit, shape: &[usize]| Column { name, unit, shape: shape.to_vec(), values: Vec::new() };
         let mut columns = vec![
             column("time", "s", &[]),
             column("position", "m", &[particles, 3]),
@@ -166,36 +186,40 @@ impl Recorder {
         }
     }
 
+    /// The header and all columns.
+    #[must_use]
+    pub fn finish(self) -> (serde_json::Value, Vec<RecordColumn>) {
+        let mut header = self.header;
+        header["wall_time"] = json!(self.started.elapsed().as_secs_f64());
+        let samples = self.steps.len();
+        let mut columns = vec![RecordColumn { name: "step", shape: vec![samples], values: Values::Count(self.steps) }];
+        columns.extend(self.columns.into_iter().map(|column| RecordColumn {
+            name: column.name,
+            shape: std::iter::once(samples).chain(column.shape).collect(),
+            values: Values::Real(column.values),
+        }));
+        if let Some(contacts) = self.contacts {
+            let signed = |values: Vec<u64>| Values::Count(values.into_iter().map(u64::cast_signed).collect());
+            let count = contacts.pair.len() / 2;
+            let start = RecordColumn { name: "contact_start", shape: vec![samples + 1], values: signed(contacts.start) };
+            let pair = RecordColumn { name: "contact_pair", shape: vec![count, 2], values: signed(contacts.pair) };
+            let values = Values::Real(contacts.force);
+            columns.extend([start, pair, RecordColumn { name: "contact_force", shape: vec![count, 3], values }]);
+        }
+        (header, columns)
+    }
+
     /// Writes the record into `folder`.
     ///
     /// # Errors
     /// The folder or its files cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+    pub fn write(self, folder: &Path) -> Result<(), Error> {
         let failed = |reason| Error::Write { file: folder.to_owned(), reason };
         fs::create_dir_all(folder).map_err(failed)?;
-        self.write_columns(&folder.join("columns.npz")).map_err(failed)?;
-        let mut header = self.header.clone();
-        header["wall_time"] = json!(self.started.elapsed().as_secs_f64());
+        let (header, columns) = self.finish();
+        write_columns(columns, &folder.join("columns.npz")).map_err(failed)?;
         let text = serde_json::to_string_pretty(&header).map_err(|error| failed(error.into()))?;
         fs::write(folder.join("record.json"), text + "\n").map_err(failed)
-    }
-
-    fn write_columns(&self, path: &Path) -> std::io::Result<()> {
-        let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
-        let samples = self.steps.len() as u64;
-        array(&mut archive, "step", &[samples], self.steps.iter().copied())?;
-        for column in &self.columns {
-            let shape: Vec<u64> = std::iter::once(samples).chain(column.shape.iter().copied()).collect();
-            array(&mut archive, column.name, &shape, column.values.iter().copied())?;
-        }
-        if let Some(contacts) = &self.contacts {
-            let signed = |values: &[u64]| values.iter().map(|value| value.cast_signed()).collect::<Vec<i64>>();
-            let count = contacts.pair.len() as u64 / 2;
-            array(&mut archive, "contact_start", &[samples + 1], signed(&contacts.start))?;
-            array(&mut archive, "contact_pair", &[count, 2], signed(&contacts.pair))?;
-            array(&mut archive, "contact_force", &[count, 3], contacts.force.iter().copied())?;
-        }
-        Ok(())
     }
 
     /// Values of the last sample of a column, for summaries.
@@ -220,6 +244,18 @@ impl Recorder {
     pub fn values(&self, name: &str) -> &[f64] {
         self.columns.iter().find(|column| column.name == name).map_or(&[], |column| &column.values)
     }
+}
+
+fn write_columns(columns: Vec<RecordColumn>, path: &Path) -> std::io::Result<()> {
+    let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
+    for RecordColumn { name, shape, values } in columns {
+        let shape: Vec<u64> = shape.into_iter().map(|length| length as u64).collect();
+        match values {
+            Values::Real(values) => array(&mut archive, name, &shape, values)?,
+            Values::Count(values) => array(&mut archive, name, &shape, values)?,
+        }
+    }
+    Ok(())
 }
 
 fn array<T: npyz::AutoSerialize>(

@@ -246,7 +246,7 @@ def curves(bed: Bed, name: str, *sources: str) -> tuple[Array, list[Array]]:
 
 
 def _matched(bed: Bed, gate: Gate) -> Iterator[Comparison]:
-    """Two one-sided tests of two codes under different laws, once for each pair of variants; the closed form must agree."""
+    """Two one-sided tests of two codes under different laws, which the closed form of the gate makes alike."""
     sides = gate.matched
     form = reference.closed_forms().get(gate.reference or "")
     labels = bed.variant.split(",")

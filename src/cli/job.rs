@@ -90,8 +90,8 @@ impl Job {
                 progress.set_position(done + step);
             }
         })?;
-        recorder.write(&folder.join("record"))?;
         let text = serde_json::to_string_pretty(&summary(scene, &recorder)?).unwrap_or_default();
+        recorder.write(&folder.join("record"))?;
         checkpoint::replace(&folder.join("summary.json"), (text + "\n").as_bytes()).map_err(failed)?;
         if file.exists() {
             fs::remove_file(file).map_err(failed)?;

@@ -112,7 +112,9 @@ fn arcs(a: f64, low: f64, high: f64) -> f64 {
     let reach = root(a, 0.0);
     let primitive = |z: f64| {
         let root = ((reach - z) * (reach + z)).max(0.0).sqrt();
-        z * atan2(root, a) + atan2(a * z, root) - a * atan2(z, root)
+        // A face through the centre halves every circle, also the one that is a point.
+        let half_angle = if a == 0.0 { FRAC_PI_2 } else { atan2(root, a) };
+        z * half_angle + atan2(a * z, root) - a * atan2(z, root)
     };
     let (from, to) = (low.clamp(-reach, reach), high.clamp(-reach, reach));
     let outside = (high - low) - (to - from);
@@ -156,9 +158,14 @@ mod tests {
     #[test]
     fn halves_quarters_and_octants_are_exact() {
         let (upper, whole) = ([0.0, 3.0], sphere(1.0));
-        assert!((cut(upper, EVERYTHING, EVERYTHING) - whole / 2.0).abs() < ROUNDING);
-        assert!((cut(upper, upper, EVERYTHING) - whole / 4.0).abs() < ROUNDING);
-        assert!((cut(upper, upper, upper) - whole / 8.0).abs() < ROUNDING);
+        let parts = [
+            (cut(upper, EVERYTHING, EVERYTHING), 2.0),
+            (cut(upper, upper, EVERYTHING), 4.0),
+            (cut(upper, upper, upper), 8.0),
+        ];
+        for (part, share) in parts {
+            assert!((part - whole / share).abs() < ROUNDING, "{share}: off by {:e}", part - whole / share);
+        }
     }
 
     #[test]
