@@ -201,7 +201,8 @@ impl Recorder {
         if let Some(contacts) = self.contacts {
             let signed = |values: Vec<u64>| Values::Count(values.into_iter().map(u64::cast_signed).collect());
             let count = contacts.pair.len() / 2;
-            let start = RecordColumn { name: "contact_start", shape: vec![samples + 1], values: signed(contacts.start) };
+            let start =
+                RecordColumn { name: "contact_start", shape: vec![samples + 1], values: signed(contacts.start) };
             let pair = RecordColumn { name: "contact_pair", shape: vec![count, 2], values: signed(contacts.pair) };
             let values = Values::Real(contacts.force);
             columns.extend([start, pair, RecordColumn { name: "contact_force", shape: vec![count, 3], values }]);

@@ -82,7 +82,8 @@ fn friction_that_is_switched_off_no_longer_brakes() {
         "do = \"set_pair\"\nbetween = [\"glass\", \"glass\"]\nvalues = { friction = 0.25 }",
     ))));
     assert!((begin - before).abs() < 1e-15, "{begin} {before}: nothing changes before the stage");
-    assert!((end - begin).abs() < 1e-6, "{begin} {end}: nothing brakes");
+    // The loads of the last step before the stage act for half a step more: 0.25 x 10 m/s2 x 5 us.
+    assert!((end - begin).abs() < 2e-5, "{begin} {end}: nothing brakes");
     // mu g t = 0.25 x 10 x 0.02, while it slides.
     assert!((before - after - 0.05).abs() < 2e-3, "{before} {after}");
 }
@@ -150,7 +151,7 @@ fn the_summary_holds_the_observables_of_the_case() {
         .status()
         .unwrap();
     assert!(status.success());
-    let text = std::fs::read_to_string(folder.join("out/summary.json")).unwrap();
+    let text = std::fs::read_to_string(folder.join("out/quick/seed=1/summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
     let coordination = &summary["observables"]["coordination"];
     assert_eq!(coordination["unit"], "-");

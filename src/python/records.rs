@@ -14,9 +14,8 @@ use crate::{cli, simulation};
 pub fn run<'py>(py: Python<'py>, scene: &str, threads: usize) -> PyResult<(String, Bound<'py, PyDict>)> {
     let refuse = |error: crate::Error| PyValueError::new_err(error.to_string());
     let scene = cli::parse_scene("scene", scene).map_err(refuse)?;
-    let recorder = py
-        .detach(|| simulation::run(&scene, &simulation::Options::threads(threads), &|_| {}))
-        .map_err(refuse)?;
+    let recorder =
+        py.detach(|| simulation::run(&scene, &simulation::Options::threads(threads), &|_| {})).map_err(refuse)?;
     let (header, columns) = recorder.finish();
     let found = PyDict::new(py);
     for RecordColumn { name, shape, values } in columns {
