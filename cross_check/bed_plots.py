@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cross_check.compare.ensemble_checks import Bed, beds, curves
+from cross_check.compare.ensemble_checks import LAST, Bed, beds, curves
 from cross_check.compare.outcome import NATIVE
 from cross_check.compare.quantity import Undefined
 from cross_check.compare.samples import BadSample
@@ -79,8 +79,10 @@ def _profiles(bed: Bed) -> Iterator[CurveSet]:
             record = bed.of(source)[0].measured
             if record is None or name not in record.series or record[name].ndim != 2:
                 continue
-            values = record.values(name, stated["stage"], max(float(stated["average"]), 1e-12))
-            lines.append(Curve(source, np.arange(len(values), dtype=np.float64) + 0.5, values, bed.recorded(source)))
+            values = record.values(name, stated["stage"], max(float(stated["average"]), LAST))
+            parts = np.arange(len(values), dtype=np.float64) + 0.5
+            # An empty part of a profile has no value in some codes: a hole in all curves keeps them comparable.
+            lines.append(Curve(source, parts, np.nan_to_num(values), bed.recorded(source)))
         if lines and lines[0].source == NATIVE:
             scale = float(np.max(np.abs(lines[0].y))) or 1.0
             yield CurveSet(

@@ -36,6 +36,23 @@ class Gate:
     bound: float
     bound_source: str
     order: tuple[float, float] | None
+    matched: Matched | None = None
+
+
+@dataclass(frozen=True)
+class MatchedSide:
+    """A code at a point of a sweep."""
+
+    code: str
+    point: str
+
+
+@dataclass(frozen=True)
+class Matched:
+    """Two codes under different laws that a closed form makes alike."""
+
+    left: MatchedSide
+    right: MatchedSide
 
 
 @dataclass(frozen=True)
@@ -83,6 +100,8 @@ class Case:
 def _gate(raw: dict[str, Any]) -> Gate:
     typed, order = dict(raw), raw["order"]
     typed["order"] = None if order is None else (float(order[0]), float(order[1]))
+    if raw["matched"] is not None:
+        typed["matched"] = Matched(MatchedSide(**raw["matched"]["left"]), MatchedSide(**raw["matched"]["right"]))
     return Gate(**typed)
 
 

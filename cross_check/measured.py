@@ -72,14 +72,14 @@ class Measured:
     def values(self, observable: str, stage: str, average: float) -> Array:
         """Means over the last share `average` (above 0, up to 1) of the samples of a stage, shape () or (K,).
 
-        A share of less than one sample is one sample.
+        A share of less than one sample is one sample. Of a list, parts that are not defined are NaN.
         """
         if not 0.0 < average <= 1.0:
             raise RecordError(f"{self.name}: average {average}, expected a share above 0 and up to 1")
         _, values = self.curve(observable, stage)
         # Rounding must not turn 0.1 of 100 samples into 11.
         count = max(1, math.ceil(average * len(values) - 1e-9))
-        if np.any(np.isnan(values[-count:])):
+        if values.ndim == 1 and np.any(np.isnan(values[-count:])):
             raise RecordError(f"{self.name}: {observable} is not defined in all of the last {count} samples of {stage}")
         return np.asarray(np.mean(values[-count:], axis=0), dtype=float)
 

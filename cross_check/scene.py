@@ -203,7 +203,8 @@ class Stage:
 class Scene:
     """One runnable problem with nothing left to resolve.
 
-    `stages` is empty where nothing changes but driven particles. `contacts` says whether samples hold contact forces.
+    `stages` is empty where nothing changes but driven particles. `contacts` says whether samples hold contact forces,
+    `energies` whether they hold the ledger.
     `observables` are measures as the case states them, in SI (docs/case-keys.md).
     """
 
@@ -227,6 +228,7 @@ class Scene:
     drives: tuple[Drive, ...] = ()
     stages: tuple[Stage, ...] = ()
     contacts: bool = False
+    energies: bool = True
     observables: tuple[dict[str, Any], ...] = ()
 
     @property
@@ -293,6 +295,8 @@ class Scene:
         for optional in ("drives", "stages", "contacts", "observables"):
             if not raw[optional]:
                 del raw[optional]
+        if self.energies:
+            del raw["energies"]
         return json.dumps(raw, sort_keys=True)
 
     def digest(self) -> str:

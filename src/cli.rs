@@ -6,16 +6,15 @@ use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
-use serde_json::json;
 
 use crate::bench;
 use crate::case::scene::Scene;
 use crate::case::{self, Loaded};
 use crate::error::Error;
-use crate::record::{DISSIPATED, Recorder};
 use crate::simulation::{self, Options};
 
 mod job;
+mod summary;
 
 use job::Job;
 
@@ -231,36 +230,4 @@ pub(crate) fn bar(steps: u64) -> ProgressBar {
     }
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {per_sec}, {eta} left");
     ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
-/// Observables of a run by name, with value and unit.
-pub(crate) fn summary(scene: &Scene, recorder: &Recorder) -> serde_json::Value {
-    let last = |name| recorder.last(name).unwrap_or_default();
-    let largest = |name| recorder.values(name).iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let balance = |sample: usize| {
-        let column = |name| recorder.values(name).get(sample).copied().unwrap_or_default();
-        let held = column("energy_kinetic") + column("energy_elastic") + column("energy_gravity");
-        DISSIPATED.iter().fold(held, |sum, name| sum + column(name)) - column("energy_body_work")
-    };
-    let samples = recorder.values("time").len();
-    let largest_residual = (0..samples).map(|sample| (balance(sample) - balance(0)).abs()).fold(0.0, f64::max);
-    let entered = last("energy_entered");
-    let residual = (entered > 0.0).then(|| largest_residual / entered);
-    let value = |value: f64, unit: &str| json!({"value": value, "unit": unit});
-    json!({
-        "scene": scene.name(),
-        "observables": {
-            "time": value(scene.time_step * scene.steps as f64, "s"),
-            "steps": value(scene.steps as f64, "-"),
-            "largest_force_component": value(largest("force"), "N"),
-            "kinetic_energy": value(last("energy_kinetic"), "J"),
-            "elastic_energy": value(last("energy_elastic"), "J"),
-            "viscous_dissipation": value(last("energy_viscous"), "J"),
-            "frictional_dissipation": value(last("energy_frictional"), "J"),
-            "rolling_dissipation": value(last("energy_rolling"), "J"),
-            "plastic_dissipation": value(last("energy_plastic"), "J"),
-            "carried_dissipation": value(last("energy_carried"), "J"),
-            "energy_residual": json!({"value": residual, "unit": "-"}),
-        },
-    })
 }

@@ -75,8 +75,10 @@ impl Recorder {
         ];
         let stored = ["energy_kinetic", "energy_elastic", "energy_gravity"];
         let received = ["energy_body_work", "energy_entered"];
-        let energies = stored.into_iter().chain(DISSIPATED).chain(received);
-        columns.extend(energies.map(|name| column(name, "J", &[])));
+        if scene.energies {
+            let energies = stored.into_iter().chain(DISSIPATED).chain(received);
+            columns.extend(energies.map(|name| column(name, "J", &[])));
+        }
         let mut header = header(scene);
         header["columns"]["step"] = json!("-");
         let contacts = scene.contacts.then(|| ContactColumns { start: vec![0], ..ContactColumns::default() });
@@ -200,6 +202,17 @@ impl Recorder {
     #[must_use]
     pub fn last(&self, name: &str) -> Option<f64> {
         self.columns.iter().find(|column| column.name == name)?.values.last().copied()
+    }
+
+    /// Contacts of all samples: where those of each sample begin and the last end, both sides, force on the first [N].
+    #[must_use]
+    #[expect(clippy::type_complexity, reason = "three columns")]
+    pub fn contact_columns(&self) -> Option<(Vec<usize>, Vec<[u32; 2]>, &[[f64; 3]])> {
+        let contacts = self.contacts.as_ref()?;
+        let start = contacts.start.iter().map(|at| usize::try_from(*at).unwrap_or(usize::MAX)).collect();
+        let index = |value: u64| u32::try_from(value).unwrap_or(u32::MAX);
+        let pair = contacts.pair.as_chunks().0.iter().map(|[i, j]| [index(*i), index(*j)]).collect();
+        Some((start, pair, contacts.force.as_chunks().0))
     }
 
     /// All values of a column in one row.

@@ -77,7 +77,8 @@ impl Setup {
             plane_radius_factor: scene.mirror.plane_radius_factor,
             cylinder_curvature: scene.mirror.cylinder_curvature,
             start: scene.mirror.start,
-            ledger: true,
+            // Accounts of contacts hold their forces.
+            ledger: scene.energies || scene.contacts,
             skin: None,
         }
     }

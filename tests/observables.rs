@@ -1,5 +1,7 @@
 //! Observables against crystals, forces and balances whose values are known, and against what may not change them.
 
+#![allow(clippy::unwrap_used, clippy::float_cmp, clippy::needless_pass_by_value, reason = "tests; counts are exact")]
+
 use std::f64::consts::{PI, SQRT_2};
 
 use crossgrain::case::measure::Measure;
@@ -263,7 +265,7 @@ fn momentum_is_missing_where_a_force_is() {
     let time = [0.0, 0.1, 0.2];
     let fall = |t: f64| [0.0, 0.0, -9.81 * t];
     let velocity: Vec<Row> = time.iter().flat_map(|t| [fall(*t); 2]).collect();
-    let position = vec![[0.495, 1.0, 1.0], [1.485, 1.0, 1.0]].repeat(3);
+    let position = [[0.495, 1.0, 1.0], [1.485, 1.0, 1.0]].repeat(3);
     let named = |name: &str, kind: Value| Named { name: name.to_owned(), measure: measure(kind) };
     let asked = [
         named("change", json!({"kind": "momentum_change", "samples": 2})),

@@ -28,10 +28,10 @@ poisson = 0.3
 density = "2500 kg/m3"
 [[pairs]]
 between = ["glass", "glass"]
-values = { damping = { kind = "restitution", value = 0.7 } }
+values = { damping = { kind = "restitution", value = 0.7 }, friction = 0.5 }
 [model]
 normal = { law = "hertz", force_cut = "on" }
-tangential = { law = "frictionless" }
+tangential = { law = "mindlin", history = "default" }
 moments = { law = "free" }
 [[bodies]]
 name = "floor"
@@ -42,9 +42,24 @@ motion = { kind = "fixed" }
 step = { kind = "fixed", value = "5e-6 s" }
 [[stages]]
 name = "fall"
-end = { kind = "duration", value = "0.1 s" }
+end = { kind = "duration", value = "0.06 s" }
+[[stages]]
+name = "slide"
+end = { kind = "duration", value = "0.04 s" }
+[[stages.actions]]
+do = "set_motion"
+body = "floor"
+motion = { kind = "prescribed", velocity = ["0.1 m/s", 0, 0] }
+[[stages.actions]]
+do = "set_pair"
+between = ["glass", "glass"]
+values = { damping = { kind = "restitution", value = 0.4 }, friction = 0.2 }
+[[stages.actions]]
+do = "set_gravity"
+value = [0, "1 m/s2", "-9 m/s2"]
 [output]
 every = 1000
+contacts = true
 "#
     .to_owned();
     for k in 0..150 {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,8 @@ from cross_check.scene import Scene
 BOUND = "bound"
 # The smallest share of a stage: its last sample.
 LAST = 1e-12
+# Relative difference up to which a closed form makes two laws alike: a value of a case has four digits.
+ALIKE = 2e-3
 # Time [s] within which another machine repeats a recorded bed, and how well: particles fall and begin to touch.
 DETERMINISTIC = 0.05
 SAME = 1e-6
@@ -32,7 +34,10 @@ SAME = 1e-6
 
 @dataclass(frozen=True)
 class Bed:
-    """One variant of a case with all its seeds: scenes and outcomes in the order of the seeds, one for each."""
+    """One variant of a case with all its seeds: scenes and outcomes in the order of the seeds, one for each.
+
+    `siblings` are all variants of the case.
+    """
 
     case: str
     variant: str
@@ -40,6 +45,7 @@ class Bed:
     scenes: tuple[Scene, ...]
     outcomes: tuple[Outcomes, ...]
     codes: tuple[str, ...]
+    siblings: tuple[Bed, ...] = ()
 
     @property
     def name(self) -> str:
@@ -87,15 +93,17 @@ class Bed:
         return next((record.units[name] for record in records if record is not None and name in record.units), "-")
 
 
-def beds(case: Case, results: dict[str, Outcomes], codes: tuple[str, ...]) -> Iterator[Bed]:
+def beds(case: Case, results: dict[str, Outcomes], codes: tuple[str, ...]) -> list[Bed]:
     """The variants of a case whose ensembles are judged."""
     names = dict.fromkeys(variant.name for variant in case.variants)
+    found: list[Bed] = []
     for name in names:
         members = [variant for variant in case.variants if variant.name == name]
         gates = tuple(gate for gate in members[0].gates if gate.check in ENSEMBLE_CHECKS)
         if gates:
             scenes = tuple(variant.scenes[0] for variant in members)
-            yield Bed(case.name, name, gates, scenes, tuple(results[scene.name] for scene in scenes), codes)
+            found.append(Bed(case.name, name, gates, scenes, tuple(results[scene.name] for scene in scenes), codes))
+    return [replace(bed, siblings=tuple(found)) for bed in found]
 
 
 def compare_ensembles(bed: Bed) -> Iterator[Comparison]:
@@ -237,6 +245,36 @@ def curves(bed: Bed, name: str, *sources: str) -> tuple[Array, list[Array]]:
     return aligned(*groups)
 
 
+def _matched(bed: Bed, gate: Gate) -> Iterator[Comparison]:
+    """Two one-sided tests of two codes under different laws, once for each pair of variants; the closed form must agree."""
+    sides = gate.matched
+    form = reference.closed_forms().get(gate.reference or "")
+    labels = bed.variant.split(",")
+    if sides is None or form is None or sides.left.point not in labels:
+        return
+    partner = ",".join(sides.right.point if label == sides.left.point else label for label in labels)
+    other = next((item for item in bed.siblings if item.variant == partner), None)
+    names = [f"{side.code} ({side.point})" for side in (sides.left, sides.right)]
+    if other is None or not {sides.left.code, sides.right.code} <= set(bed.codes):
+        return
+    values = [float(form(replace(item.scenes[0], particles=item.scenes[0].particles[:2]))) for item in (bed, other)]
+    alike = f"{gate.reference} {values[0]:.6g} and {values[1]:.6g}"
+    try:
+        if abs(values[0] - values[1]) > ALIKE * abs(values[1]):
+            raise Undefined(f"the laws are not made alike: {alike}")
+        left, right = bed.values(sides.left.code, gate.quantity), other.values(sides.right.code, gate.quantity)
+        found = equivalence(left, right, _margin(gate, float(np.mean(left))))
+    except (Undefined, BadSample) as why:
+        text = str(why)
+        verdict = text if text.startswith(("not-run", "not-comparable")) else not_comparable(text)
+        yield _comparison(bed, gate, Side(names[0], None, None), Side(names[1], None, None), None, verdict)
+        return
+    one = Side(names[0], found.left.mean, found.left.standard_error, "ensemble", bed.recorded(sides.left.code))
+    two = Side(names[1], found.right.mean, found.right.standard_error, "ensemble", other.recorded(sides.right.code))
+    note = f"matched by {alike}; {found.describe(bed.unit(gate.quantity))}"
+    yield _comparison(bed, gate, one, two, abs(found.difference), found.verdict, note)
+
+
 def _worst(bed: Bed, gate: Gate, largest: bool) -> Iterator[Comparison]:
     """Every seed of every source on the right side of the bound."""
     for source in (NATIVE, *bed.codes):
@@ -258,6 +296,7 @@ def _worst(bed: Bed, gate: Gate, largest: bool) -> Iterator[Comparison]:
 ENSEMBLE_CHECKS: dict[str, Callable[[Bed, Gate], Iterator[Comparison]]] = {
     "equivalence": _means,
     "equivalence_curve": _curves,
+    "matched": _matched,
     "at_least": lambda bed, gate: _worst(bed, gate, largest=False),
     "at_most": lambda bed, gate: _worst(bed, gate, largest=True),
 }

@@ -8,7 +8,7 @@ mod stages;
 use std::collections::HashSet;
 
 use super::quantity::{Kind, Number, Quantity};
-use super::schema::{Case, Check, SCHEMA, TimeStep};
+use super::schema::{Case, Check, Matched, SCHEMA, TimeStep};
 use super::tag;
 use crate::error::Problem;
 
@@ -198,7 +198,8 @@ impl Checker<'_> {
             let key = |name: &str| format!("gates.{i}.{name}");
             self.number(key("bound"), gate.bound, |value| value > 0.0, "must be positive");
             let fine = matches!(gate.check, Check::Finest | Check::Extrapolated);
-            match (fine || gate.check == Check::Reference, &gate.reference) {
+            let matched = gate.check == Check::Matched;
+            match (fine || matched || gate.check == Check::Reference, &gate.reference) {
                 (true, None) => {
                     self.add(key("reference"), "nothing", "this check names a closed form of reference/analytic");
                 }
@@ -206,10 +207,24 @@ impl Checker<'_> {
                     self.add(
                         key("reference"),
                         name,
-                        "only the checks reference, finest and extrapolated name a closed form",
+                        "only the checks reference, finest, extrapolated and matched name a closed form",
                     );
                 }
                 _ => {}
+            }
+            match &gate.matched {
+                None if matched => {
+                    self.add(
+                        key("matched"),
+                        "nothing",
+                        "check = \"matched\" states two codes, each at a point of a sweep",
+                    );
+                }
+                Some(_) if !matched => {
+                    self.add(key("matched"), "two codes", "only check = \"matched\" states them");
+                }
+                Some(sides) => self.matched(&key("matched"), sides),
+                None => {}
             }
             match (gate.check == Check::Convergence, gate.order) {
                 (true, None) => {
@@ -233,6 +248,16 @@ impl Checker<'_> {
             if gate.check.of_ensemble() && case.ensemble.is_none() {
                 self.add(key("check"), tag(gate, "check"), "it judges an ensemble: the case states [ensemble]");
             }
+        }
+    }
+
+    /// Sides of a matched pair name codes and points that there are.
+    fn matched(&mut self, at: &str, sides: &Matched) {
+        let labels: Vec<_> =
+            self.case.vary.iter().flat_map(|axis| &axis.points).map(|point| point.label.as_str()).collect();
+        for (name, side) in [("left", &sides.left), ("right", &sides.right)] {
+            self.known(format!("{at}.{name}.code"), &side.code, "code", &["liggghts", "yade", "lammps"]);
+            self.known(format!("{at}.{name}.point"), &side.point, "point of a sweep", &labels);
         }
     }
 

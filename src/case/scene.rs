@@ -57,6 +57,8 @@ pub struct Scene {
     pub stages: Vec<SceneStage>,
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub contacts: bool,
+    #[serde(default = "kept", skip_serializing_if = "is_kept")]
+    pub energies: bool,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub observables: Vec<Observable>,
 }
@@ -81,6 +83,15 @@ pub struct SceneModel {
     pub tangential: TangentialLaw,
     #[serde(default = "free", skip_serializing_if = "is_free")]
     pub moments: MomentLaw,
+}
+
+const fn kept() -> bool {
+    true
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+const fn is_kept(energies: &bool) -> bool {
+    *energies
 }
 
 const fn frictionless() -> TangentialLaw {
@@ -200,6 +211,7 @@ pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -
         drives: Vec::new(),
         stages: Vec::new(),
         contacts: case.output.contacts,
+        energies: case.output.energies,
         observables: case.observables.clone(),
     };
     scene.pairs = pairs(case, &scene.materials);

@@ -266,7 +266,8 @@ pub struct Gate {
     pub quantity: String,
     /// What is compared with what.
     pub check: Check,
-    /// Name of the closed form in `reference/analytic`, for the checks `reference`, `finest` and `extrapolated`.
+    /// Name of the closed form in `reference/analytic`, for the checks `reference`, `finest`,
+    /// `extrapolated` and `matched`.
     pub reference: Option<String>,
     /// How the difference is made a number.
     pub scale: Scale,
@@ -276,6 +277,28 @@ pub struct Gate {
     pub bound_source: String,
     /// Interval of the order of convergence, for `check = "convergence"`.
     pub order: Option<[Number; 2]>,
+    /// Two codes that have no law in common, each at its own point of a sweep, for `check = "matched"`.
+    pub matched: Option<Matched>,
+}
+
+/// Two codes under different laws that are made alike by a closed form.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Matched {
+    /// One of them.
+    pub left: MatchedSide,
+    /// The other.
+    pub right: MatchedSide,
+}
+
+/// A code at a point of a sweep.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MatchedSide {
+    /// Name of the code.
+    pub code: String,
+    /// Label of the point.
+    pub point: String,
 }
 
 /// Kinds of comparison.
@@ -302,6 +325,8 @@ pub enum Check {
     Equivalence,
     /// Equivalence of the ensemble means of an observable over the whole run: native with each code.
     EquivalenceCurve,
+    /// Equivalence of the ensemble means of two codes under different laws that a closed form makes alike.
+    Matched,
     /// Every seed of every source has at least the bound.
     AtLeast,
     /// Every seed of every source has at most the bound.
@@ -312,7 +337,7 @@ impl Check {
     /// Whether it judges an ensemble by an observable of the case.
     #[must_use]
     pub fn of_ensemble(self) -> bool {
-        matches!(self, Self::Equivalence | Self::EquivalenceCurve | Self::AtLeast | Self::AtMost)
+        matches!(self, Self::Equivalence | Self::EquivalenceCurve | Self::Matched | Self::AtLeast | Self::AtMost)
     }
 }
 
@@ -373,10 +398,17 @@ pub struct Output {
     /// Whether samples hold the force of every contact.
     #[serde(default)]
     pub contacts: bool,
+    /// Whether samples hold the energy ledger, whose account of every contact takes as long as the contacts themselves.
+    #[serde(default = "kept")]
+    pub energies: bool,
+}
+
+const fn kept() -> bool {
+    true
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { every: 1, contacts: false }
+        Self { every: 1, contacts: false, energies: true }
     }
 }

@@ -7,6 +7,7 @@ use std::time::Duration;
 use indicatif::ProgressBar;
 use serde::{Deserialize, Serialize};
 
+use super::summary::summary;
 use crate::case::scene::Scene;
 use crate::error::Error;
 use crate::record::checkpoint;
@@ -90,7 +91,7 @@ impl Job {
             }
         })?;
         recorder.write(&folder.join("record"))?;
-        let text = serde_json::to_string_pretty(&super::summary(scene, &recorder)).unwrap_or_default();
+        let text = serde_json::to_string_pretty(&summary(scene, &recorder)?).unwrap_or_default();
         checkpoint::replace(&folder.join("summary.json"), (text + "\n").as_bytes()).map_err(failed)?;
         if file.exists() {
             fs::remove_file(file).map_err(failed)?;

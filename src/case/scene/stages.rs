@@ -28,6 +28,31 @@ pub enum SceneAction {
     SetGravity { value: [f64; 3] },
 }
 
+impl Scene {
+    /// The scene with the pairs, motions and gravity that hold in a stage; all else is that of the start.
+    #[must_use]
+    pub fn at_stage(&self, index: usize) -> Self {
+        let mut scene = self.clone();
+        for action in self.stages.iter().take(index + 1).flat_map(|stage| &stage.actions) {
+            match action {
+                SceneAction::SetPair { pair } => {
+                    let same = |old: &&mut PairProperties| old.between == pair.between;
+                    if let Some(old) = scene.pairs.iter_mut().find(same) {
+                        *old = *pair;
+                    }
+                }
+                SceneAction::SetMotion { body, motion } => {
+                    if let Some(body) = scene.bodies.get_mut(*body) {
+                        body.motion = motion.clone();
+                    }
+                }
+                SceneAction::SetGravity { value } => scene.gravity = *value,
+            }
+        }
+        scene
+    }
+}
+
 /// The stages of a case, `steps` long each. A run of one stage in which nothing is measured needs none; neither do
 /// driven particles, whose paths have their own.
 pub fn resolve(case: &Case, scene: &Scene, steps: &[u64]) -> Vec<SceneStage> {

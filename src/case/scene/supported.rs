@@ -67,8 +67,10 @@ fn stages(stages: &[Stage]) -> Result<(), Problem> {
     for (i, stage) in stages.iter().enumerate() {
         for (j, action) in stage.actions.iter().enumerate() {
             match action {
-                Action::Drive { .. } | Action::SetPair { .. } | Action::SetGravity { .. } => {}
-                Action::SetMotion { motion: Motion::Fixed {} | Motion::Prescribed { .. }, .. } => {}
+                Action::Drive { .. }
+                | Action::SetPair { .. }
+                | Action::SetGravity { .. }
+                | Action::SetMotion { motion: Motion::Fixed {} | Motion::Prescribed { .. }, .. } => {}
                 Action::SetMotion { motion, .. } => {
                     let key = format!("stages.{i}.actions.{j}.motion.kind");
                     return refuse(key, tag(motion, "kind"), "`fixed` and `prescribed` bodies");
