@@ -89,7 +89,7 @@ def test_heights_are_counted_from_where_a_moving_floor_is(tmp_path: Path) -> Non
     scene = load(falling, tmp_path).variants[0].scenes[0]
     record = engine.run(scene, tmp_path / "record")
     height = record["position"][-1, :, 2].mean() + 0.5 * record["time"][-1]
-    expected = 8 * 4 / 3 * np.pi * 0.005**3 / (2 * 0.024**2 * height)
+    expected = float(8 * 4 / 3 * np.pi * 0.005**3 / (2 * 0.024**2 * height))
     assert measure(scene, record)["packing_fraction"][-1] == pytest.approx(expected, rel=1e-9)
 
 

@@ -276,7 +276,7 @@ def test_a_case_without_a_baseline_is_held_against_none(case: Case, fake: Fake, 
 
 def test_cases_without_ensembles_have_no_baseline(fake: Fake, tmp_path: Path) -> None:
     slide = load(SLIDE, tmp_path)
-    results = {variant.scenes[0].name: {} for variant in slide.variants}
+    results: runs.Results = {variant.scenes[0].name: {} for variant in slide.variants}
     assert regression.present(slide, results, ("fake",)) is None
     assert regression.record([slide], results, ("fake",)) == []
     assert fake.ran == []

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from small_cases import BED, load
 
 from cross_check import engine
@@ -16,9 +18,10 @@ from cross_check.compare.quantity import Undefined
 from cross_check.compare.trajectories import describe, pairs, parting
 from cross_check.compare.verdicts import AGREE, DIFFER, Comparison, not_run
 from cross_check.engine import Gate
-from cross_check.record import Array, Code, Header, RunRecord
+from cross_check.record import Code, Header, RunRecord
 from cross_check.scene import Scene
 
+Array = NDArray[Any]
 DIAMETER = 0.01
 STEPS = np.arange(0, 401, 20)
 TIME = STEPS * 5e-5
