@@ -79,7 +79,7 @@ def test_lists_and_numbers_are_measured_with_their_units(tmp_path: Path) -> None
     }
     assert set(found.units.values()) == {"-"}
     volume, area = 8 * 4 / 3 * np.pi * 0.005**3, 0.024**2
-    height = np.mean([particle.position[2] for particle in scene.particles])
+    height = float(np.mean([particle.position[2] for particle in scene.particles]))
     assert found["packing_fraction"][0] == pytest.approx(volume / (2 * area * height), rel=1e-12)
 
 
