@@ -30,6 +30,15 @@ def blocks(page: Path, language: str) -> list[str]:
     return [textwrap.dedent(block[3]) for block in found if block[2] == language]
 
 
+def parts(page: Path) -> tuple[str, str]:
+    """The case that the parts of the page of cases make, and the one of its section on beds."""
+    whole = page.read_text()
+    cut = whole.index("\n## Beds\n")
+    found = [(block.start() < cut, textwrap.dedent(block[3])) for block in FENCE.finditer(whole) if block[2] == "toml"]
+    first, second = ("\n".join(text for before, text in found if before == side) for side in (True, False))
+    return first, second
+
+
 def shell_lines(page: Path) -> list[str]:
     return [line for block in blocks(page, "sh") for line in block.splitlines() if line and not line.startswith("#")]
 
@@ -79,11 +88,26 @@ def test_whole_cases_on_a_page_are_accepted(page: Path, tmp_path: Path) -> None:
 
 def test_the_parts_of_a_case_make_one_that_runs_as_the_page_says(tmp_path: Path) -> None:
     path = tmp_path / "bead-on-plate.toml"
-    path.write_text("\n".join(blocks(DOCS / "cases.md", "toml")))
+    path.write_text(parts(DOCS / "cases.md")[0])
     status = run_command(["run", str(path), "--codes", "", "--out", str(tmp_path / "out")])
     assert status == 0
     verdicts = json.loads((tmp_path / "out" / "verdicts.json").read_text())
     assert [item["verdict"] for item in verdicts] == ["agree", "agree"]
+
+
+@pytest.mark.parametrize("codes", ["", "lammps"])
+def test_the_bed_of_the_page_of_cases_runs_and_agrees(codes: str, tmp_path: Path) -> None:
+    if codes and shutil.which("lmp") is None:
+        pytest.skip("lammps is not installed")
+    path = tmp_path / "small-pour.toml"
+    path.write_text(parts(DOCS / "cases.md")[1])
+    assert run_command(["run", str(path), "--codes", codes, "--out", str(tmp_path / "out")]) == 0
+    verdicts = json.loads((tmp_path / "out" / "verdicts.json").read_text())
+    checks = ["equivalence", "equivalence_curve", "at_least", "at_least", "at_most", "at_most"]
+    assert [item["check"] for item in verdicts] == (checks if codes else ["at_least", "at_most"])
+    assert {item["verdict"] for item in verdicts} == {"agree"}
+    found = crossgrain.load_case(path, [])
+    assert json.loads(found)["scenes"][0]["contacts"]
 
 
 def run_command(arguments: list[str]) -> int:
@@ -97,7 +121,7 @@ def run_command(arguments: list[str]) -> int:
 
 def test_the_error_on_the_page_of_cases_is_the_one_that_comes(tmp_path: Path) -> None:
     shown = next(text for text in blocks(DOCS / "cases.md", "text") if text.startswith("error:"))
-    text = "\n".join(blocks(DOCS / "cases.md", "toml"))
+    text, _ = parts(DOCS / "cases.md")
     path = tmp_path / "bead-on-plate.toml"
     path.write_text(text.replace("poisson = 0.22", "poisson = 0.7"))
     with pytest.raises(ValueError, match="poisson") as caught:
