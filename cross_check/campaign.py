@@ -6,6 +6,7 @@ import json
 import os
 import platform
 import shutil
+import statistics
 import sys
 import time
 from collections.abc import Iterable
@@ -278,6 +279,19 @@ def write_deck(deck: Deck, folder: Path) -> None:
     rows = [asdict(row) for row in deck.translation]
     sheet = {"code": deck.code, "scene": deck.scene.name, "hash": deck.hash, "main": deck.main, "rows": rows}
     (folder / "translation.json").write_text(json.dumps(sheet, indent=1) + "\n")
+
+
+def rates(finished: Finished) -> list[str]:
+    """Time of every source per particle and step of the beds that ran, median over their runs, one line a source.
+
+    The times are wall times of runs beside each other, of this and of earlier campaigns.
+    """
+    found: dict[str, list[float]] = {}
+    for outcomes in finished.results.values():
+        for (source, _), outcome in outcomes.items():
+            if outcome.measured is not None and (header := outcome.measured.header).steps > 0:
+                found.setdefault(source, []).append(header.wall_time / (header.steps * len(header.mass)))
+    return [f"{source}: {1e6 * statistics.median(times):.2f} us per particle-step" for source, times in found.items()]
 
 
 def unexpected(verdicts: Iterable[Comparison]) -> list[Comparison]:

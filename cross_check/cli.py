@@ -271,5 +271,7 @@ def _conclude(finished: campaign.Finished, out: Path, expected: Path | None = No
             f"{item.verdict}, expected {item.expected}",
             err=True,
         )
+    for line in campaign.rates(finished):
+        click.echo(line)
     click.echo(f"{len(verdicts)} comparisons, {len(wrong)} not as expected; report: {page}")
     sys.exit(UNEXPECTED if wrong else AS_EXPECTED)

@@ -14,6 +14,10 @@ from cross_check.measured import read as read_measured
 from cross_check.record import read
 
 
+# Particles of the largest record that is stored: those of packings are a megabyte each, and run live.
+LARGEST = 64
+
+
 def refresh(cases: list[Case], progress: runs.Progress) -> tuple[int, int]:
     """Stores the runs of every installed code and removes those of decks that no case asks for any more.
 
@@ -31,6 +35,8 @@ def refresh(cases: list[Case], progress: runs.Progress) -> tuple[int, int]:
                 continue
             if outcome.measured is not None:
                 kept.add(reference.store_measured(outcome.measured, outcome.scene))
+                continue
+            if outcome.record is not None and len(outcome.record.header.mass) > LARGEST:
                 continue
             if outcome.record is None:
                 raise CaseError(f"{outcome.scene.name}, {source}: {outcome.verdict}")
