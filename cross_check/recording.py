@@ -13,7 +13,6 @@ from cross_check.engine import Case, CaseError
 from cross_check.measured import read as read_measured
 from cross_check.record import read
 
-
 # Particles of the largest record that is stored: those of packings are a megabyte each, and run live.
 LARGEST = 64
 

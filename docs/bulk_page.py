@@ -47,6 +47,11 @@ def _row(item: dict[str, Any]) -> str:
     return f"| {' | '.join(cells)} |"
 
 
+def _reason(item: dict[str, Any]) -> str:
+    source = item["left" if item["right"]["source"] == "bound" else "right"]["source"]
+    return f"- {item['case']}, {source}: {item['verdict']}"
+
+
 def page(folder: Path, command: str) -> str:
     """The page of a kept campaign."""
     index = json.loads((folder / "campaign.json").read_text())
@@ -64,12 +69,7 @@ def page(folder: Path, command: str) -> str:
         rows = [_row(item) for item in shown if item["case"] == case]
         text += f"## {case}\n\n| observable | check | left | right | difference | bound | verdict |\n"
         text += "|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n\n"
-    reasons = dict.fromkeys(
-        f"- {item['case']}, {item['right']['source'] if item['right']['source'] != 'bound' else item['left']['source']}: "
-        f"{item['verdict']}"
-        for item in left_out
-        if item["verdict"] != "not-run(full only)"
-    )
+    reasons = dict.fromkeys(_reason(item) for item in left_out if item["verdict"] != "not-run(full only)")
     if reasons:
         text += "## What was not compared\n\n" + "\n".join(reasons) + "\n"
     return text.rstrip() + "\n"
