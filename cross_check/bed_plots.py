@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -81,8 +82,12 @@ def _profiles(bed: Bed) -> Iterator[CurveSet]:
                 continue
             values = record.values(name, stated["stage"], max(float(stated["average"]), LAST))
             parts = np.arange(len(values), dtype=np.float64) + 0.5
-            # An empty part of a profile has no value in some codes: a hole in all curves keeps them comparable.
-            lines.append(Curve(source, parts, np.nan_to_num(values), bed.recorded(source)))
+            lines.append(Curve(source, parts, values, bed.recorded(source)))
+        # An empty part of a profile has no value in some codes: it is left out of all curves.
+        whole = np.all([np.isfinite(line.y) for line in lines], axis=0)
+        lines = [replace(line, x=line.x[whole], y=line.y[whole]) for line in lines]
+        if lines and len(lines[0].x) == 0:
+            continue
         if lines and lines[0].source == NATIVE:
             scale = float(np.max(np.abs(lines[0].y))) or 1.0
             yield CurveSet(

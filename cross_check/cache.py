@@ -43,7 +43,8 @@ def code_key(deck: Deck, code: Code) -> str:
 
 def measured_key(run: str, scene: Scene) -> str:
     """Key of what was measured of the run with a key: the observables, and the functions that measure."""
-    return _digest("measured", run, json.dumps(scene.observables, sort_keys=True), crossgrain.OBSERVABLES)
+    asked, how = json.dumps(scene.observables, sort_keys=True), (PACKAGE / "measuring.py").read_text()
+    return _digest("measured", run, asked, how, crossgrain.OBSERVABLES)
 
 
 class Cache:

@@ -18,8 +18,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from cross_check import bench, campaign, doctor, export, recording, runs, suites
 from cross_check.adapters import ADAPTERS
 from cross_check.adapters.interface import InvalidScene, NotComparable, RunFailed
-from cross_check.compare.checks import UnknownQuantity
+from cross_check.baseline import BaselineError
 from cross_check.compare.expectations import ExpectationError
+from cross_check.compare.quantity import UnknownQuantity
 from cross_check.engine import CaseError, load_case
 from cross_check.meshes import MeshError
 from cross_check.record import RecordError, read
@@ -45,6 +46,7 @@ def _refusing() -> Generator[None]:
         UnknownQuantity,
         ExpectationError,
         InvalidScene,
+        BaselineError,
         bench.BenchError,
         RunFailed,
         OSError,

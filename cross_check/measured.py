@@ -9,7 +9,7 @@ import hashlib
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -53,7 +53,13 @@ class Measured:
         """Which run this is, for messages."""
         header = self.header
         seed = "" if header.seed is None else f"/seed={header.seed}"
-        return f"{header.source} of {header.case}/{header.variant}{seed}"
+        variant = f"/{header.variant}" if header.variant else ""
+        return f"{header.source} of {header.case}{variant}{seed}"
+
+    def scalars(self) -> Measured:
+        """The record without the observables that are lists of numbers at each time."""
+        kept = {name: values for name, values in self.series.items() if values.ndim == 1}
+        return replace(self, series=kept, units={name: self.units[name] for name in kept})
 
     def samples_of(self, stage: str) -> slice:
         """The samples of a stage. Raises RecordError with the known stages, or where it has no samples."""

@@ -24,6 +24,7 @@ def measure(scene: Scene, record: RunRecord) -> Measured:
     """The observables of a scene over the samples of a record. Raises CaseError where one is not defined there."""
     columns = {name: record[name] for name in (*COLUMNS, *CONTACTS) if name in record.columns}
     columns["velocity"] = record.synchronized_velocity()
+    columns["body_point"] = body_points(scene, record["time"])
     names = [stage.name for stage in scene.stages]
     series: dict[str, Array] = {}
     # Pairs change from stage to stage: an observable sees those of its own.
@@ -42,6 +43,18 @@ def measure(scene: Scene, record: RunRecord) -> Measured:
         series={item["name"]: series[item["name"]] for item in scene.observables},
         units=crossgrain.measure_units(json.dumps(scene.observables)),
     )
+
+
+def body_points(scene: Scene, time: Array) -> Array:
+    """Points of the bodies at the sampled times, shape (T, B, 3) [m]: prescribed velocities over the stages so far."""
+    ends = np.array(scene.stage_ends(), dtype=np.float64) * scene.time_step
+    begins = np.concatenate(([0.0], ends[:-1]))
+    points = np.array([[body.shape.point for body in scene.bodies]] * len(time)).reshape(len(time), -1, 3)
+    for stage, (begin, end) in enumerate(zip(begins, ends, strict=True)):
+        passed = np.clip(time, begin, end) - begin
+        for index, body in enumerate(scene.at_stage(stage).bodies):
+            points[:, index] += passed[:, None] * np.array(body.motion.velocity or (0.0, 0.0, 0.0))
+    return points
 
 
 def _system(scene: Scene) -> str:

@@ -8,7 +8,6 @@ import importlib.util
 import json
 import sys
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -68,8 +67,7 @@ def store_measured(record: Measured, scene: Scene) -> Path:
     Lists of numbers at each time are left out, because they are large. A stored record of the same bits stays as it is.
     """
     header = record.header
-    scalars = {name: values for name, values in record.series.items() if values.ndim == 1}
-    kept = replace(record, series=scalars, units={name: record.units[name] for name in scalars})
+    kept = record.scalars()
     folder = _measured_folder(header.source, slug(header.code.version), header.deck_hash, scene)
     if (folder / MEASURED).is_file() and read_measured(folder).digest() == kept.digest():
         return folder

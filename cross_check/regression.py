@@ -22,7 +22,8 @@ def _measures(found: Iterable[Bed]) -> list[tuple[str, str, float]]:
     """Observables that are numbers, with their stage and average."""
     measures: dict[tuple[str, str, float], None] = {}
     for bed in found:
-        for stated in bed.scenes[0].observables:
+        # A difference of two observables changes with them.
+        for stated in (item for item in bed.scenes[0].observables if item.get("minus") is None):
             measures[stated["name"], stated["stage"], max(float(stated["average"]), LAST)] = None
     return list(measures)
 

@@ -282,7 +282,10 @@ def _stored_bed(job: _Job, code: Code | None, options: Options, cache: Cache) ->
         if not (job.substitute and options.recorded):
             return None
     folder = reference.recorded_measured(job.source, job.deck.hash, job.scene)
-    return None if folder is None else _measured_outcome(job, read_measured(folder), "recorded", folder)
+    stored = None if folder is None else read_measured(folder)
+    if folder is None or stored is None or (code is not None and stored.header.code != code):
+        return None  # an ensemble is of one version
+    return _measured_outcome(job, stored, "recorded", folder)
 
 
 def _kept(job: _Job, result: RunRecord | RunFailed, code: Code | None, cache: Cache) -> Outcome:

@@ -15,6 +15,8 @@ from cross_check.compare import trajectories
 from cross_check.compare.differences import UnknownDifference, cause
 from cross_check.compare.outcome import NATIVE, Outcomes, mirror_name
 from cross_check.compare.quantities import QUANTITIES, Quantity, Undefined
+from cross_check.compare.quantity import UnknownQuantity
+from cross_check.compare.samples import BadSample
 from cross_check.compare.verdicts import (
     AGREE,
     DIFFER,
@@ -30,10 +32,6 @@ from cross_check.record import Array
 from cross_check.scene import Scene
 
 REFERENCE = "reference"
-
-
-class UnknownQuantity(Exception):
-    """A gate names a quantity or a closed form that does not exist; the message lists the known ones."""
 
 
 @dataclass(frozen=True)
@@ -325,7 +323,7 @@ def _horizon(bench: Bench) -> Iterator[Comparison]:
         try:
             found = trajectories.parting(bench.scene, bench.outcomes, mirror, code)
             plain = trajectories.parting(bench.scene, bench.outcomes, NATIVE, code)
-        except Undefined as why:
+        except (Undefined, BadSample) as why:
             yield bench.undecided(mirror, code, str(why))
             continue
         window = found.deterministic_window

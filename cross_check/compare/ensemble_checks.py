@@ -13,7 +13,7 @@ from cross_check import reference
 from cross_check.compare.curve_ensembles import aligned, compare_curves
 from cross_check.compare.equivalence import equivalence
 from cross_check.compare.outcome import NATIVE, Outcome, Outcomes
-from cross_check.compare.quantity import Undefined
+from cross_check.compare.quantity import Undefined, UnknownQuantity
 from cross_check.compare.samples import BadSample, sample
 from cross_check.compare.verdicts import AGREE, DIFFER, Comparison, Side, not_comparable
 from cross_check.engine import Case, Gate
@@ -57,12 +57,15 @@ class Bed:
         return [outcomes[source, 0] for outcomes in self.outcomes]
 
     def ensemble(self, source: str) -> Ensemble:
-        """The ensemble of a source. Raises Undefined with the verdict of the first seed that has no record."""
+        """The ensemble of a source, by the observables that are one number at each time, which recorded runs have too.
+
+        Raises Undefined with the verdict of the first seed that has no record.
+        """
         outcomes = self.of(source)
         missing = next((item.verdict for item in outcomes if item.measured is None), None)
         if missing is not None:
             raise Undefined(missing)
-        members = [item.measured for item in outcomes if item.measured is not None]
+        members = [item.measured.scalars() for item in outcomes if item.measured is not None]
         seeds = [seed for scene in self.scenes if (seed := scene.seed) is not None]
         try:
             return ensemble(members, seeds)
@@ -239,8 +242,8 @@ def curves(bed: Bed, name: str, *sources: str) -> tuple[Array, list[Array]]:
     groups: list[list[tuple[Array, Array]]] = []
     for source in sources:
         members = bed.ensemble(source).members
-        if any(member[name].ndim != 1 for member in members):
-            raise Undefined(f"{name} is a list of numbers at each time, not one")
+        if any(name not in member.series for member in members):
+            raise Undefined(f"{name} is not one number at each time")
         groups.append([(member.time, member[name]) for member in members])
     return aligned(*groups)
 
@@ -250,12 +253,17 @@ def _matched(bed: Bed, gate: Gate) -> Iterator[Comparison]:
     sides = gate.matched
     form = reference.closed_forms().get(gate.reference or "")
     labels = bed.variant.split(",")
-    if sides is None or form is None or sides.left.point not in labels:
+    if form is None:
+        known = ", ".join(reference.closed_forms())
+        raise UnknownQuantity(f"{bed.case}: no closed form {gate.reference} (known: {known})")
+    if sides is None or sides.left.point not in labels:
         return
     partner = ",".join(sides.right.point if label == sides.left.point else label for label in labels)
     other = next((item for item in bed.siblings if item.variant == partner), None)
     names = [f"{side.code} ({side.point})" for side in (sides.left, sides.right)]
-    if other is None or not {sides.left.code, sides.right.code} <= set(bed.codes):
+    if other is None:
+        raise UnknownQuantity(f"{bed.case}: {bed.variant} has no partner {partner} for gates of {gate.quantity}")
+    if not {sides.left.code, sides.right.code} <= set(bed.codes):
         return
     values = [float(form(replace(item.scenes[0], particles=item.scenes[0].particles[:2]))) for item in (bed, other)]
     alike = f"{gate.reference} {values[0]:.6g} and {values[1]:.6g}"
@@ -263,7 +271,8 @@ def _matched(bed: Bed, gate: Gate) -> Iterator[Comparison]:
         if abs(values[0] - values[1]) > ALIKE * abs(values[1]):
             raise Undefined(f"the laws are not made alike: {alike}")
         left, right = bed.values(sides.left.code, gate.quantity), other.values(sides.right.code, gate.quantity)
-        found = equivalence(left, right, _margin(gate, float(np.mean(left))))
+        margin = _margin(gate, float(np.mean(left)))
+        found = equivalence(left, right, margin)
     except (Undefined, BadSample) as why:
         text = str(why)
         verdict = text if text.startswith(("not-run", "not-comparable")) else not_comparable(text)
@@ -272,7 +281,8 @@ def _matched(bed: Bed, gate: Gate) -> Iterator[Comparison]:
     one = Side(names[0], found.left.mean, found.left.standard_error, "ensemble", bed.recorded(sides.left.code))
     two = Side(names[1], found.right.mean, found.right.standard_error, "ensemble", other.recorded(sides.right.code))
     note = f"matched by {alike}; {found.describe(bed.unit(gate.quantity))}"
-    yield _comparison(bed, gate, one, two, abs(found.difference), found.verdict, note)
+    discrepancy = abs(found.difference) * gate.bound / margin
+    yield _comparison(bed, gate, one, two, discrepancy, found.verdict, note)
 
 
 def _worst(bed: Bed, gate: Gate, largest: bool) -> Iterator[Comparison]:

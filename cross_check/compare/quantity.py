@@ -12,6 +12,10 @@ from cross_check.record import Array, RunRecord
 from cross_check.scene import Scene
 
 
+class UnknownQuantity(Exception):
+    """A gate names a quantity or a closed form that does not exist; the message lists the known ones."""
+
+
 class Undefined(Exception):
     """The record does not define the quantity; the message says why."""
 

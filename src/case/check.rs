@@ -245,6 +245,11 @@ impl Checker<'_> {
             if fine && case.time.finest.is_none() {
                 self.add("time.finest", "nothing", "gates with the checks finest and extrapolated need it");
             }
+            if gate.check.of_ensemble() != case.gates[0].check.of_ensemble() {
+                let allowed =
+                    "the gates of a case judge either ensembles, whose trajectories are not kept, or single runs";
+                self.add(key("check"), tag(gate, "check"), allowed);
+            }
             if gate.check.of_ensemble() && case.ensemble.is_none() {
                 self.add(key("check"), tag(gate, "check"), "it judges an ensemble: the case states [ensemble]");
             }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::json;
 
+use crate::bodies::Body;
 use crate::case::scene::Scene;
 use crate::error::Error;
 use crate::observables::measure::{Columns, ContactColumns, Named, series};
@@ -33,6 +34,10 @@ pub fn summary(scene: &Scene, recorder: &Recorder) -> Result<serde_json::Value, 
             "time": value(scene.time_step * scene.steps as f64, "s"),
             "steps": value(scene.steps as f64, "-"),
             "largest_force_component": value(largest("force"), "N"),
+        },
+    });
+    if scene.energies {
+        let energies = json!({
             "kinetic_energy": value(last("energy_kinetic"), "J"),
             "elastic_energy": value(last("energy_elastic"), "J"),
             "viscous_dissipation": value(last("energy_viscous"), "J"),
@@ -41,18 +46,45 @@ pub fn summary(scene: &Scene, recorder: &Recorder) -> Result<serde_json::Value, 
             "plastic_dissipation": value(last("energy_plastic"), "J"),
             "carried_dissipation": value(last("energy_carried"), "J"),
             "energy_residual": json!({"value": residual, "unit": "-"}),
-        },
-    });
+        });
+        if let (Some(into), Some(energies)) = (found["observables"].as_object_mut(), energies.as_object()) {
+            into.extend(energies.clone());
+        }
+    }
     for (name, measured) in measured(scene, recorder)? {
         found["observables"][name] = measured;
     }
     Ok(found)
 }
 
+/// Points of the bodies at the sampled times [m]: prescribed velocities over the stages so far.
+fn body_points(scene: &Scene, time: &[f64]) -> Vec<[f64; 3]> {
+    let ends = scene.stages.iter().scan(0.0, |end, stage| {
+        let begin = *end;
+        *end += stage.steps as f64 * scene.time_step;
+        Some((begin, *end))
+    });
+    let mut spans: Vec<(f64, f64)> = ends.collect();
+    if spans.is_empty() {
+        spans.push((0.0, f64::INFINITY));
+    }
+    let moving: Vec<Vec<Body>> =
+        (0..spans.len()).map(|stage| scene.at_stage(stage).bodies.iter().map(Body::new).collect()).collect();
+    let place = |time: f64, body: usize| {
+        let mut point = moving[0][body].point;
+        for ((begin, end), bodies) in spans.iter().zip(&moving) {
+            point += bodies[body].velocity * (time.clamp(*begin, *end) - begin);
+        }
+        point.into()
+    };
+    time.iter().flat_map(|time| (0..scene.bodies.len()).map(|body| place(*time, body)).collect::<Vec<_>>()).collect()
+}
+
 /// The observables of the case: the mean over the last share of the stage, less that of the observable it names.
 fn measured(scene: &Scene, recorder: &Recorder) -> Result<BTreeMap<String, serde_json::Value>, Error> {
     let rows = |name: &str| Some(recorder.values(name).as_chunks().0);
     let contacts = recorder.contact_columns();
+    let points = body_points(scene, recorder.values("time"));
     let columns = Columns {
         time: recorder.values("time"),
         position: rows("position").unwrap_or_default(),
@@ -60,6 +92,7 @@ fn measured(scene: &Scene, recorder: &Recorder) -> Result<BTreeMap<String, serde
         angular_velocity: rows("angular_velocity"),
         force: rows("force"),
         body_force: rows("body_force"),
+        body_point: Some(&points),
         contacts: contacts.as_ref().map(|(start, pair, force)| ContactColumns { start, pair, force }),
         ..Columns::default()
     };

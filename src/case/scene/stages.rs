@@ -36,7 +36,8 @@ impl Scene {
         for action in self.stages.iter().take(index + 1).flat_map(|stage| &stage.actions) {
             match action {
                 SceneAction::SetPair { pair } => {
-                    let same = |old: &&mut PairProperties| old.between == pair.between;
+                    let [first, second] = pair.between;
+                    let same = |old: &&mut PairProperties| [[first, second], [second, first]].contains(&old.between);
                     if let Some(old) = scene.pairs.iter_mut().find(same) {
                         *old = *pair;
                     }
