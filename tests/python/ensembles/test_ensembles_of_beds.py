@@ -143,7 +143,7 @@ def test_curves_that_meet_at_their_ends_only_differ(scene: Scene) -> None:
 
 def test_lists_of_numbers_have_no_curve(scene: Scene) -> None:
     found = only(bed(scene, gate("equivalence_curve", 0.3), {"it": lambda source, place: np.ones((20, 4))}))
-    assert found.verdict == "not-comparable(it is a list of numbers at each time, not one)"
+    assert found.verdict == "not-comparable(it is not one number at each time)"
 
 
 def test_bounds_hold_for_the_worst_seed_of_every_source(scene: Scene) -> None:
