@@ -39,6 +39,7 @@ class Gate:
     bound_source: str
     order: tuple[float, float] | None
     matched: Matched | None = None
+    full_only: bool = False
 
 
 @dataclass(frozen=True)
@@ -165,8 +166,8 @@ def build() -> str:
     return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
 
 
-def run(scene: Scene, folder: Path, threads: int = 1) -> RunRecord:
-    """Runs a scene and returns its record; a program in place of the module writes it into `folder` first.
+def run(scene: Scene, folder: Path | None = None, threads: int = 1) -> RunRecord:
+    """Runs a scene and returns its record, which is also written into `folder` if there is one.
 
     Raises CaseError or RecordError.
     """
@@ -176,15 +177,18 @@ def run(scene: Scene, folder: Path, threads: int = 1) -> RunRecord:
             header, columns = crossgrain.run(scene.to_json(), threads)
         except ValueError as error:
             raise CaseError(str(error)) from error
-        return _record(json.loads(header), columns, scene.name)
+        record = _record(json.loads(header), columns, scene.name)
+        if folder is not None:
+            record.write(folder, compress=False)
+        return record
     with tempfile.TemporaryDirectory() as scratch:
-        path = Path(scratch) / "scene.json"
+        path, out = Path(scratch) / "scene.json", folder or Path(scratch) / "record"
         path.write_text(scene.to_json())
-        command = [program, "run-scene", str(path), "--out", str(folder), "--threads", str(threads)]
+        command = [program, "run-scene", str(path), "--out", str(out), "--threads", str(threads)]
         done = subprocess.run(command, capture_output=True, text=True, timeout=3600, check=False)  # noqa: S603
-    if done.returncode != 0:
-        raise RecordError(f"{scene.name}: {program} failed: {done.stderr.strip()}")
-    return read(folder)
+        if done.returncode != 0:
+            raise RecordError(f"{scene.name}: {program} failed: {done.stderr.strip()}")
+        return read(out)
 
 
 def _record(header: dict[str, Any], columns: dict[str, NDArray[Any]], where: str) -> RunRecord:

@@ -49,9 +49,11 @@ def body_points(scene: Scene, time: Array) -> Array:
     """Points of the bodies at the sampled times, shape (T, B, 3) [m]: prescribed velocities over the stages so far."""
     ends = np.array(scene.stage_ends(), dtype=np.float64) * scene.time_step
     begins = np.concatenate(([0.0], ends[:-1]))
-    points = np.array([[body.shape.point for body in scene.bodies]] * len(time)).reshape(len(time), -1, 3)
+    points = np.zeros((len(time), len(scene.bodies), 3))
+    for index, body in enumerate(scene.bodies):
+        points[:, index] = body.shape.point
     for stage, (begin, end) in enumerate(zip(begins, ends, strict=True)):
-        passed = np.clip(time, begin, end) - begin
+        passed = np.minimum(np.maximum(time, begin), end) - begin
         for index, body in enumerate(scene.at_stage(stage).bodies):
             points[:, index] += passed[:, None] * np.array(body.motion.velocity or (0.0, 0.0, 0.0))
     return points

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
@@ -179,11 +178,10 @@ def _native(job: _Job, options: Options, cache: Cache, work: Path) -> Outcome:
             return _measured_outcome(job, stored, "cache", cache.folder(kept))
     if not options.live and (record := cache.get(key)) is not None:
         return Outcome(job.source, job.scene, labelled(record, job.source), origin="cache", folder=cache.folder(key))
-    with tempfile.TemporaryDirectory(dir=work) as folder:
-        try:
-            record = engine.run(job.scene, Path(folder))
-        except (CaseError, RecordError) as error:
-            return Outcome(job.source, job.scene, None, not_run(str(error)), "not run")
+    try:
+        record = engine.run(job.scene)
+    except (CaseError, RecordError) as error:
+        return Outcome(job.source, job.scene, None, not_run(str(error)), "not run")
     if job.bed:
         return _measured(job, record, measured_key(key, job.scene), cache)
     kept = cache.put(key, record)

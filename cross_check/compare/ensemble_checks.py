@@ -15,7 +15,7 @@ from cross_check.compare.equivalence import equivalence
 from cross_check.compare.outcome import NATIVE, Outcome, Outcomes
 from cross_check.compare.quantity import Undefined, UnknownQuantity
 from cross_check.compare.samples import BadSample, sample
-from cross_check.compare.verdicts import AGREE, DIFFER, Comparison, Side, not_comparable
+from cross_check.compare.verdicts import AGREE, DIFFER, FULL_ONLY, Comparison, Side, not_comparable
 from cross_check.engine import Case, Gate
 from cross_check.ensembles import Ensemble, ensemble
 from cross_check.measured import read as read_measured
@@ -36,7 +36,7 @@ SAME = 1e-6
 class Bed:
     """One variant of a case with all its seeds: scenes and outcomes in the order of the seeds, one for each.
 
-    `siblings` are all variants of the case.
+    `full`: only the full form of a suite runs it. `siblings` are all variants of the case.
     """
 
     case: str
@@ -45,6 +45,7 @@ class Bed:
     scenes: tuple[Scene, ...]
     outcomes: tuple[Outcomes, ...]
     codes: tuple[str, ...]
+    full: bool = False
     siblings: tuple[Bed, ...] = ()
 
     @property
@@ -105,14 +106,19 @@ def beds(case: Case, results: dict[str, Outcomes], codes: tuple[str, ...]) -> li
         gates = tuple(gate for gate in members[0].gates if gate.check in ENSEMBLE_CHECKS)
         if gates:
             scenes = tuple(variant.scenes[0] for variant in members)
-            found.append(Bed(case.name, name, gates, scenes, tuple(results[scene.name] for scene in scenes), codes))
+            outcomes = tuple(results[scene.name] for scene in scenes)
+            found.append(Bed(case.name, name, gates, scenes, outcomes, codes, members[0].full_only))
     return [replace(bed, siblings=tuple(found)) for bed in found]
 
 
 def compare_ensembles(bed: Bed) -> Iterator[Comparison]:
     """All comparisons of all gates of a bed, and of what is recorded with what ran now."""
     for gate in bed.gates:
-        yield from ENSEMBLE_CHECKS[gate.check](bed, gate)
+        if gate.full_only and not bed.full:
+            for code in bed.codes:
+                yield _comparison(bed, gate, Side(NATIVE, None, None), Side(code, None, None), None, FULL_ONLY)
+        else:
+            yield from ENSEMBLE_CHECKS[gate.check](bed, gate)
     for code in bed.codes:
         yield from _as_recorded(bed, code)
 

@@ -279,6 +279,9 @@ pub struct Gate {
     pub order: Option<[Number; 2]>,
     /// Two codes that have no law in common, each at its own point of a sweep, for `check = "matched"`.
     pub matched: Option<Matched>,
+    /// Whether it is judged only at points that only the full form of a suite runs: ensembles too small to decide it.
+    #[serde(default)]
+    pub full_only: bool,
 }
 
 /// Two codes under different laws that are made alike by a closed form.
