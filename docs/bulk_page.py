@@ -7,10 +7,10 @@ import sys
 from pathlib import Path
 from typing import Any
 
-HEAD = """# Beds: the last whole comparison
+HEAD = """# Beds in every code
 
-Written by `docs/bulk_page.py` from `verdicts.json` of `{command}`, {started}, {minutes:.0f} minutes. Means of ensembles
-with their standard errors; margins were fixed beforehand. `inconclusive` means that the seeds do not decide.
+Written by `docs/bulk_page.py` from the verdicts of `{command}` of {started}. Means of ensembles with their standard
+errors; margins were fixed beforehand. `inconclusive` means that the seeds do not decide.
 
 {environment}
 
@@ -62,7 +62,6 @@ def page(folder: Path, command: str) -> str:
     text = HEAD.format(
         command=command,
         started=index["started"][:10],
-        minutes=index["duration"] / 60.0,
         environment=f"Sources: {codes}.",
     )
     for case in dict.fromkeys(item["case"] for item in shown):
