@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
@@ -230,15 +231,21 @@ def _external(
             outcomes[index] = Outcome(adapter.name, jobs[index].scene, None, reason, "not run", jobs[index].deck)
             progress(adapter.name, 1)
         waiting = []
-    shares = [waiting[first :: options.jobs] for first in range(options.jobs)]
+    # Small decks share the start of a program; each bed is kept as soon as it is done, so that a stopped suite goes on.
+    small = [index for index in waiting if not jobs[index].bed]
+    shares = [small[first :: options.jobs] for first in range(options.jobs)]
+    shares += [[index] for index in waiting if jobs[index].bed]
 
     def run(share: tuple[int, list[int]]) -> None:
         number, indices = share
         decks = [deck for index in indices if (deck := jobs[index].deck) is not None]
-        found = adapter.run(decks, work / f"{adapter.name}-{number}", _time_limit(decks, options))
+        folder = work / f"{adapter.name}-{number}"
+        found = adapter.run(decks, folder, _time_limit(decks, options))
         for index, result in zip(indices, found, strict=True):
             outcomes[index] = _kept(jobs[index], result, code, cache)
             progress(adapter.name, 1)
+            if jobs[index].bed and outcomes[index].measured is not None:
+                shutil.rmtree(folder, ignore_errors=True)  # a hundred megabytes that nobody reads again
 
     with ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(run, [(number, share) for number, share in enumerate(shares) if share]))
