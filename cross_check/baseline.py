@@ -192,8 +192,12 @@ def read(path: Path) -> Baseline:
 
 
 def _from_json(raw: dict[str, Any]) -> Entry:
-    members = tuple(Member(**{**member, "values": tuple(map(float, member["values"]))}) for member in raw["members"])
-    return Entry(**{**raw, "code": Code(**raw["code"]), "members": members})
+    members: list[Member] = []
+    for member in raw["members"]:
+        member["values"] = tuple(float(value) for value in member["values"])
+        members.append(Member(**member))
+    raw["code"], raw["members"] = Code(**raw["code"]), tuple(members)
+    return Entry(**raw)
 
 
 def recorded(case: str) -> list[Baseline]:

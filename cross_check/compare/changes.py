@@ -14,7 +14,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.stats import false_discovery_control
+from scipy.stats import (
+    false_discovery_control,  # pyright: ignore[reportUnknownVariableType]  # leaves its argument untyped
+)
 
 from cross_check.baseline import Baseline, BaselineError, Entry, Measure
 from cross_check.compare.quantity import Undefined
