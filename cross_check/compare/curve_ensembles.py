@@ -69,7 +69,8 @@ class CurveEquivalence:
         power = "" if self.power is None else f"; power {self.power:.2f}"
         return (
             f"largest difference of the means {self.largest:.3g}{mark} at {self.time:.4g} s, limits {low:.3g} to "
-            f"{high:.3g}{mark}, margin {self.margin:.3g}; n {self.left_size} and {self.right_size}{power}"
+            f"{high:.3g}{mark}, band +- {self.half_width:.3g}{mark}, margin {self.margin:.3g}; "
+            f"n {self.left_size} and {self.right_size}{power}"
         )
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from cross_check.compare.curve_ensembles import aligned, compare_curves
 from cross_check.compare.quantity import Undefined
-from cross_check.compare.samples import BadSample
+from cross_check.compare.samples import BadSample, sample, welch
 from cross_check.compare.verdicts import AGREE, DIFFER, INCONCLUSIVE
 from cross_check.record import Array
 
@@ -55,6 +55,16 @@ def test_curves_apart_by_the_margin_at_one_time_rarely_agree(process: str, size:
 @pytest.mark.parametrize("process", ["settling", "wandering"])
 def test_curves_apart_by_the_margin_all_the_time_rarely_differ(process: str, size: int) -> None:
     assert share(DIFFER, process, size, MARGIN * CONSTANT) <= 0.05 + ERROR
+
+
+def test_of_a_single_time_the_upper_limit_is_that_of_welchs_test() -> None:
+    generator, ratios = np.random.default_rng(29), list[float]()
+    for _ in range(30):
+        left, right = generator.normal(50.0, 1.0, 6), generator.normal(0.0, 1.5, 6)
+        exact = welch(sample(left, "left"), sample(right, "right")).interval(0.9)
+        found = compare_curves([0.0], left[:, None], right[:, None], MARGIN, power_ensembles=0)
+        ratios.append((found.interval[1] - found.largest) / (exact[1] - found.largest))
+    assert np.mean(ratios) == pytest.approx(1.0, abs=0.04)  # about 0.9 without one of the corrections for few seeds
 
 
 @pytest.mark.parametrize("process", ["settling", "wandering"])
