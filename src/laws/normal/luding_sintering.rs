@@ -147,6 +147,7 @@ impl NormalLaw for LudingSintering {
     type History = f64;
     /// k1(T,t) now and one step ago.
     type Shared = (f64, f64);
+    const BATCHED: bool = true;
     const SHARED: &'static [(&'static str, &'static str)] =
         &[("loading_stiffness", "N/m"), ("loading_stiffness_before", "N/m")];
 
@@ -175,21 +176,18 @@ impl NormalLaw for LudingSintering {
         if loading > before {
             *history = self.cooled(*history, before, loading);
         }
-        let mut stiffness = self.branches.stiffness(*history);
+        // All branches are evaluated and one is chosen, so that several contacts are at a time.
+        let known = self.branches.stiffness(*history);
         let offset = self.offset(*history, loading);
-        let fluid = offset >= self.fluid_overlap;
-        let line = stiffness * (overlap - offset.min(self.fluid_overlap));
-        let elastic = if !fluid && line >= loading * overlap {
-            *history = overlap;
-            stiffness = self.branches.stiffness(overlap);
-            loading * overlap
-        } else if line > -cohesion * stiffness * overlap {
-            line
-        } else {
-            *history = self.largest((1.0 + cohesion) * overlap, loading);
-            stiffness = self.branches.stiffness(*history);
-            -cohesion * stiffness * overlap
-        };
+        let line = known * (overlap - offset.min(self.fluid_overlap));
+        let loads = (offset < self.fluid_overlap) & (line >= loading * overlap);
+        let holds = line > -cohesion * known * overlap;
+        let fallen = self.largest((1.0 + cohesion) * overlap, loading);
+        let unloaded = if holds { *history } else { fallen };
+        *history = if loads { overlap } else { unloaded };
+        let stiffness = self.branches.stiffness(*history);
+        let pulled = if holds { line } else { -cohesion * stiffness * overlap };
+        let elastic = if loads { loading * overlap } else { pulled };
         let pull_off = (stiffness - loading) * *history * (cohesion / (1.0 + cohesion));
         NormalState {
             force: elastic + self.dashpot * approach.normal_velocity,
@@ -214,12 +212,11 @@ impl NormalLaw for LudingSintering {
         &(loading, _): &Self::Shared,
         history: &mut f64,
     ) -> NormalState {
-        if self.sliding == Sliding::Off || !sliding || state.elastic >= 0.0 {
-            return state;
-        }
+        let breaks = (self.sliding != Sliding::Off) & sliding & (state.elastic < 0.0);
         if self.sliding == Sliding::Brittle {
-            *history = self.largest(overlap, loading);
+            *history = if breaks { self.largest(overlap, loading) } else { *history };
         }
-        NormalState { force: 0.0, elastic: 0.0, ..state }
+        let choose = |value: f64| if breaks { 0.0 } else { value };
+        NormalState { force: choose(state.force), elastic: choose(state.elastic), ..state }
     }
 }

@@ -45,6 +45,7 @@ const OPTIONS: Options = Options {
 
 impl TangentialLaw for LudingSintering {
     type History = Memory;
+    const BATCHED: bool = true;
 
     #[inline(always)]
     fn evaluate(&self, contact: &Contact, normal: &NormalState, dt: f64, history: &mut Memory) -> TangentialState {
