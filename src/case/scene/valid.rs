@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use super::duration::MOST_STEPS;
 use super::{SCHEMA, Scene, SceneAction, SceneShape};
 use crate::Vector;
+use crate::case::protocol::Action;
 use crate::case::schema::{Boundary, Case};
 use crate::domain::Domain;
 use crate::error::{Error, Problem};
@@ -38,12 +39,11 @@ pub fn room(case: &Case, scene: &Scene) -> Result<(), Problem> {
 
 /// Refuses temperatures at which the law or a radius vanishes.
 pub fn heat(case: &Case, scene: &Scene, laws: &Specification) -> Result<(), Problem> {
-    let stages = scene.stages.iter().enumerate();
-    let ramps = stages.flat_map(|(i, stage)| {
-        stage.actions.iter().filter_map(move |action| match action {
-            SceneAction::RampTemperature { to } => Some((format!("stages.{i}.actions"), *to)),
-            _ => None,
-        })
+    let stages = case.stages.iter().enumerate();
+    let actions = stages.flat_map(|(i, stage)| stage.actions.iter().enumerate().map(move |(j, action)| (i, j, action)));
+    let ramps = actions.filter_map(|(i, j, action)| match action {
+        Action::RampTemperature { to, .. } => Some((format!("stages.{i}.actions.{j}.to"), to.si())),
+        _ => None,
     });
     let start = case.temperature.map(|temperature| ("temperature".to_owned(), temperature.si()));
     for (key, temperature) in start.into_iter().chain(ramps) {
