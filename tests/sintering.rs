@@ -84,20 +84,30 @@ fn radii_and_stiffness_follow_the_temperature() {
 }
 
 #[test]
-fn servo_walls_come_to_rest_under_their_load() {
-    let scene = scene(&["stages.0.end.value=0.15 s", "output.every=500"]);
+fn servo_walls_obey_their_equation_of_motion() {
+    let loads = ["bodies.2.motion.load.value=100", "bodies.3.motion.load.value=100"];
+    let dense = ["stages.1.end.value=0.06 ms", "stages.1.output={ every = 1 }"];
+    let scene = scene(&[loads, dense].concat());
     let record = run(&scene, &Options::threads(1));
-    let pressed = record.samples_until(scene.stages[0].steps);
-    // They swing at some 70 Hz: the mean over the last third of the stage.
-    let window = pressed * 2 / 3..pressed;
+    let [first, last] =
+        [0, 1].map(|stage| record.samples_until(scene.stages[..=stage].iter().map(|stage| stage.steps).sum()));
+    assert!(last - first == 200);
     let (force, point) = (record.values("body_force"), record.values("body_point"));
+    let (mass, damping, dt) = (0.01, 0.2, scene.time_step);
     // Bodies are left, bottom, right, top; the length of the right wall is the height of the box.
-    let mean = |of: &dyn Fn(usize) -> f64| window.clone().map(of).sum::<f64>() / window.len() as f64;
     for (side, across) in [(6, 11), (11, 6)] {
-        let ratio = mean(&|at| force[12 * at + side] / (10.0 * point[12 * at + across]));
-        assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
+        let place = |sample: usize| point[12 * sample + side];
+        let mut touched = 0.0f64;
+        for sample in first..last - 1 {
+            let [before, after] = [place(sample) - place(sample - 1), place(sample + 1) - place(sample)];
+            let pushed = force[12 * sample + side];
+            let expected = pushed - 100.0 * point[12 * sample + across] - damping * before / dt;
+            let found = mass * (after - before) / (dt * dt);
+            assert!((found - expected).abs() < 1e-4 * expected.abs().max(1.0), "{found} {expected}");
+            touched = touched.max(pushed);
+        }
+        assert!(touched > 0.1);
     }
-    assert!(point[12 * pressed - 6] < 0.03 && point[12 * pressed - 1] < 0.03);
 }
 
 /// Two files, one of which starts from the other at the beginning of its cooling.
