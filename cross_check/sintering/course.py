@@ -79,9 +79,9 @@ STRIDE = 10e-3  # sampling at which density has to rise [s]
 def reorganisation(time: Array, density: Array, coordination: Array, stress: Array) -> Numbers:
     """Whether coordination falls while density rises, whether density ever falls, and what the stress does meanwhile.
 
-    `stress` is that of the top wall over the pressure [-]. Times are equally spaced.
+    `stress` is that of the top wall over the pressure [-]. Times are equally spaced, the last one may be nearer.
     """
-    interval = float(time[1] - time[0])
+    interval = float(np.median(np.diff(time)))
     apart = max(round(WINDOW / interval), 1)
     later = np.arange(len(time))[None, :] - np.arange(len(time))[:, None] >= apart
     rises = density[None, :] > density[:, None]

@@ -12,7 +12,7 @@ from scipy.stats import spearmanr
 
 import crossgrain
 from cross_check.sintering.errors import StudyError
-from cross_check.sintering.study import NotPlanned, Sample, Study, Values
+from cross_check.sintering.study import NotPlanned, Sample, Study, Values, over
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def growth(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
 
 def ratio(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
     """Seed mean of one sample over that of another; over several times the extreme one, by `worst`."""
-    return _pairwise(study, sample, asked, _over)
+    return _pairwise(study, sample, asked, over)
 
 
 def difference(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
@@ -111,8 +111,8 @@ def gain_ratio(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
     by_time: list[Values] = []
     for time in times:
         (high, highs), (low, lows) = gain(100, time), gain(10, time)
-        found.append(_over(high, low))
-        by_time.append({seed: _over(highs[seed], lows[seed]) for seed in highs if seed in lows})
+        found.append(over(high, low))
+        by_time.append({seed: over(highs[seed], lows[seed]) for seed in highs if seed in lows})
     return Evidence(_least(found), [_least(values) for values in _by_seed(by_time)], _listed(times, found))
 
 
@@ -124,12 +124,12 @@ def jump_ratio(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
         at = replace(sample, pressure=pressure)
         after = study.values(asked["quantity"], replace(at, time=last))
         before = study.values(asked["quantity"], replace(at, time=first))
-        seeds = {seed: _over(after[seed], before[seed]) for seed in after if seed in before}
-        return _over(_mean(after), _mean(before)), seeds
+        seeds = {seed: over(after[seed], before[seed]) for seed in after if seed in before}
+        return over(_mean(after), _mean(before)), seeds
 
     (low, lows), (high, highs) = jump(10), jump(100)
-    seeds = [_over(lows[seed], highs[seed]) for seed in lows if seed in highs]
-    return Evidence(_over(low, high), seeds, f"{low:.3g} / {high:.3g}")
+    seeds = [over(lows[seed], highs[seed]) for seed in lows if seed in highs]
+    return Evidence(over(low, high), seeds, f"{low:.3g} / {high:.3g}")
 
 
 def deviation(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
@@ -205,10 +205,6 @@ def _least(values: list[float]) -> float:
 
 def _most(values: list[float]) -> float:
     return float(np.max(values))
-
-
-def _over(one: float, other: float) -> float:
-    return one / other if other != 0.0 else np.nan
 
 
 def _by_seed(curves: list[Values]) -> list[list[float]]:

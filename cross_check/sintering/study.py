@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from cross_check.sintering import plan
 from cross_check.sintering.errors import StudyError
 from cross_check.sintering.outcome import Outcome
@@ -22,6 +24,11 @@ class NotPlanned(Exception):
 
 class Failed(Exception):
     """A run of which a number is asked has failed; the message says why."""
+
+
+def over(one: float, other: float) -> float:
+    """A ratio, NaN over zero: a target that needs it is then missed."""
+    return one / other if other != 0.0 else np.nan
 
 
 @dataclass(frozen=True)
@@ -118,7 +125,7 @@ def _heating_share(study: Study, sample: Sample, seed: int) -> float:
     """Size of the change of density while the temperature rises, over the change from before heating to the end."""
     before, after = (study.number(plan.BOX, f"{stage}_nu_geo", sample, seed) for stage in ("press", "heat"))
     final = study.number(plan.COOLED, "final_nu_geo", sample, seed)
-    return abs(after - before) / (final - before)
+    return over(abs(after - before), final - before)
 
 
 def _force_width(study: Study, sample: Sample, seed: int) -> float:
@@ -147,19 +154,19 @@ DERIVED: dict[str, Derived] = {
     "wall_deficit": (plan.COOLED, _of_cooled(lambda of: of("final_C_inside") - of("final_C_at_walls"))),
     "small_share_drop": (
         plan.COOLED,
-        _of_cooled(lambda of: 1.0 - of("final_overlap_small_share") / of("hot_overlap_small_share")),
+        _of_cooled(lambda of: 1.0 - over(of("final_overlap_small_share"), of("hot_overlap_small_share"))),
     ),
-    "overlap_widening": (plan.COOLED, _of_cooled(lambda of: of("final_overlap_std") / of("hot_overlap_std"))),
-    "force_widening": (plan.COOLED, _of_cooled(lambda of: of("final_f_std") / of("hot_f_std"))),
+    "overlap_widening": (plan.COOLED, _of_cooled(lambda of: over(of("final_overlap_std"), of("hot_overlap_std")))),
+    "force_widening": (plan.COOLED, _of_cooled(lambda of: over(of("final_f_std"), of("hot_f_std")))),
     "largest_use_of_friction": (
         plan.COOLED,
-        _of_cooled(lambda of: max(of("hot_mu_t_largest_share"), of("final_mu_t_largest_share"))),
+        _of_cooled(lambda of: float(np.max([of("hot_mu_t_largest_share"), of("final_mu_t_largest_share")]))),
     ),
     "force_width": (plan.COOLED, _force_width),
     "bonds_lost": (plan.FAST, _of_fast(lambda of: 1.0 - of("at_survival_bonds_surviving"))),
     "attraction_lost": (
         plan.FAST,
-        _of_fast(lambda of: 1.0 - of("at_survival_f_negative_share") / of("before_f_negative_share")),
+        _of_fast(lambda of: 1.0 - over(of("at_survival_f_negative_share"), of("before_f_negative_share"))),
     ),
     "friction_gained": (
         plan.FAST,
