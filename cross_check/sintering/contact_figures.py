@@ -37,26 +37,19 @@ def densities(found: list[Array], edges: Array) -> list[Array]:
     return [np.histogram(values, edges)[0] / (max(len(values), 1) * width) for values in found]
 
 
-def _lines(study: Study, pressure: int, name: str, *, symmetric: bool, shared: bool) -> list[Line]:
-    """The distribution at every sintering time, with zero densities left out of the curve."""
+def _lines(study: Study, pressure: int, name: str, *, symmetric: bool) -> list[Line]:
+    """The distribution at every sintering time, over the bins of the widest."""
     size = largest(study)
     by_time = {time: _found(study, Sample(pressure, size, time), name) for time in times(study, size)}
-    ranges = {time: _range(found, symmetric) for time, found in by_time.items()}
-    lines: list[Line] = []
-    for time, found in by_time.items():
-        low, high = ranges[max(ranges, key=lambda at: ranges[at][1])] if shared else ranges[time]
-        edges = np.linspace(low, high, BINS + 1)
-        line = timed(time, 0.5 * (edges[1:] + edges[:-1]), densities(found, edges))
-        lines.append(line)
-    return lines
+    high = max(_reach(found) for found in by_time.values())
+    edges = np.linspace(-high if symmetric else 0.0, high, BINS + 1)
+    centers = 0.5 * (edges[1:] + edges[:-1])
+    return [timed(time, centers, densities(found, edges)) for time, found in by_time.items()]
 
 
-def _range(found: list[Array], symmetric: bool) -> tuple[float, float]:
-    values = np.concatenate(found)
-    if not len(values):
-        return 0.0, 1.0
-    high = float(np.quantile(np.abs(values), SHOWN)) or 1.0
-    return (-high if symmetric else 0.0), high
+def _reach(found: list[Array]) -> float:
+    values = np.abs(np.concatenate(found))
+    return (float(np.quantile(values, SHOWN)) if len(values) else 0.0) or 1.0
 
 
 def _overlaps(study: Study, name: str, state: str, title: str) -> Sheet:
@@ -65,7 +58,8 @@ def _overlaps(study: Study, name: str, state: str, title: str) -> Sheet:
             f"N = {largest(study)}, p = {pressure} N/m, {STATES[state]}",
             "overlap / (a1 + a2) [-]",
             "probability density [-]",
-            _lines(study, pressure, f"{state}_overlaps", symmetric=False, shared=True),
+            _lines(study, pressure, f"{state}_overlaps", symmetric=False),
+            log_y=True,
         )
         for pressure in (10, 100)
     ]
@@ -78,7 +72,7 @@ def _forces(study: Study, name: str, pressure: int) -> Sheet:
             f"N = {largest(study)}, p = {pressure} N/m, {words}",
             "normal force / (2 a0 p) [-], repulsion positive",
             "probability density [-]",
-            _lines(study, pressure, f"{state}_forces", symmetric=True, shared=True),
+            _lines(study, pressure, f"{state}_forces", symmetric=True),
             log_y=True,
         )
         for state, words in STATES.items()

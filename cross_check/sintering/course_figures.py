@@ -83,7 +83,9 @@ def _coordination(study: Study) -> Sheet:
         for pressure, color, dash in ((10, LIGHT["native"], DASHED), (100, LIGHT["liggghts"], SOLID)):
             at, curves = whole(study, Sample(pressure, size), "C")
             lines.append(Line(f"p = {pressure} N/m", at, *mean_and_spread(curves), color, dash))
-        panels.append(Panel(f"N = {size}, t_s = 1 s", "time [s]", "coordination number [-]", lines, y_limits=(0.0, 6.0)))
+        panels.append(
+            Panel(f"N = {size}, t_s = 1 s", "time [s]", "coordination number [-]", lines, y_limits=(0.0, 6.0))
+        )
     return Sheet("figure-10", "Figure 10: coordination number", panels)
 
 

@@ -66,7 +66,9 @@ def note(row: Row) -> str:
     parts = [target.claim, f"paper: {target.paper}"]
     if row.evidence is not None:
         seeds = ", ".join(f"{value:.4g}" for value in row.evidence.seeds)
-        parts.append(f"seeds: {seeds}" + (f"; {row.kept_by} of {len(row.evidence.seeds)} keep it" if target.gated else ""))
+        parts.append(
+            f"seeds: {seeds}" + (f"; {row.kept_by} of {len(row.evidence.seeds)} keep it" if target.gated else "")
+        )
         parts += [row.evidence.note] if row.evidence.note else []
     parts += [row.reason] if row.reason else []
     return "\n".join(parts)

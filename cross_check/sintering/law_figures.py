@@ -43,7 +43,7 @@ def _loops(law: dict[str, Any]) -> Sheet:
         up = np.linspace(0.0, share * scale, POINTS)
         path = np.concatenate([up, up[::-1], up])
         found = _contact(law, path, np.full(len(path), float(law["k1"])))
-        lines.append(Line(f"up to {share:g} of the fluid overlap", path / scale, found["force"], color=color))
+        lines.append(Line(f"loaded to {share:g}", path / scale, found["force"], color=color))
     axes = ("overlap / fluid overlap [-]", "normal force [N]")
     return Sheet("figure-03", "Figure 3: force law with varying stiffness", [Panel("cold contact", *axes, lines)])
 

@@ -19,7 +19,7 @@ from cross_check.sintering.plan import Run
 from cross_check.sintering.scenes import Scene
 from cross_check.sintering.snapshot import Snapshot, check, snapshot
 from cross_check.sintering.states import Sample, forces, relative_overlaps, state_numbers, stress_trace
-from cross_check.sintering.strength import test_numbers
+from cross_check.sintering.strength import strength_numbers
 
 Measured = tuple[Numbers, Arrays]
 
@@ -88,7 +88,7 @@ def _compression(run: Run, scene: Scene, record: RunRecord) -> Measured:
     top = record.header.bodies.index("top")
     height = record["body_point"][:, top, 2] - record["body_point"][:, record.header.bodies.index("bottom"), 2]
     strain = 1.0 - height / height[0]
-    numbers = test_numbers(strain, series["sigma_zz"], series["nu_geo"], sample.pressure)
+    numbers = strength_numbers(strain, series["sigma_zz"], series["nu_geo"], sample.pressure)
     before = snapshot(record, 0)
     numbers |= _named("before", state_numbers(before, sample))
     arrays: Arrays = series | {"strain": strain}

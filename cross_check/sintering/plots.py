@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -111,7 +111,7 @@ def draw(axes: Axes, panel: Panel) -> None:
     if panel.log_y:
         axes.set_yscale("log")
     for line in panel.lines:
-        _draw(axes, line)
+        _draw(axes, _positive(line) if panel.log_y else line)
     axes.set_title(panel.title, loc="left", fontsize=8)
     axes.set_xlabel(panel.x_label)
     axes.set_ylabel(panel.y_label)
@@ -126,6 +126,12 @@ def draw(axes: Axes, panel: Panel) -> None:
             axis.set_major_formatter(FuncFormatter(lambda value, _: notation.short(value)))
     if any(line.label for line in panel.lines):
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), fontsize=7, frameon=False, handlelength=3)
+
+
+def _positive(line: Line) -> Line:
+    """What a log axis can show of a curve; its band ends a decade below it at most."""
+    y = np.where(line.y > 0.0, line.y, np.nan)
+    return replace(line, y=y, band=None if line.band is None else np.minimum(line.band, 0.9 * y))
 
 
 def _draw(axes: Axes, line: Line) -> None:

@@ -82,8 +82,8 @@ def rank(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
         raise NotPlanned("a rank correlation needs three sintering times")
     curves = [study.values(asked["quantity"], replace(sample, time=time)) for time in times]
     means = [_mean(curve) for curve in curves]
-    seeds = [float(spearmanr(times, values).statistic) for values in _by_seed(curves)]
-    return Evidence(float(spearmanr(times, means).statistic), seeds, _listed(times, means))
+    seeds = [_rank(times, values) for values in _by_seed(curves)]
+    return Evidence(_rank(times, means), seeds, _listed(times, means))
 
 
 def steepest_fall(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
@@ -193,6 +193,11 @@ def _worst(asked: dict[str, Any]) -> Callable[[list[float]], float]:
     if name not in known:
         raise StudyError(f"worst = {name!r}: unknown (known: {', '.join(known)})")
     return known[name]
+
+
+def _rank(times: list[float], values: list[float]) -> float:
+    """NaN where all values are the same: they have no rank."""
+    return float(spearmanr(times, values).statistic) if np.ptp(values) > 0.0 else np.nan
 
 
 def _mean(values: Values) -> float:

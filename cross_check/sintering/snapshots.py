@@ -73,7 +73,10 @@ def _vibration(study: Study, size: int, name: str, pressure: int, times: tuple[f
     return Sheet(name, title, notes=[_KEY], lay_out=lambda: lay_out(pictures))
 
 
-_KEY = "Lines: contacts, blue where they attract and orange where they repel; dots: size of the tangential force"
+_KEY = (
+    "Disks: mean stress, compression positive. Lines: contacts, blue where they attract and orange where they repel. "
+    "Dots: size of the tangential force"
+)
 
 
 def _first(seeds: list[int], sample: Sample) -> int:
@@ -99,10 +102,10 @@ def lay_out(pictures: list[Picture]) -> Figure:
     window = _window(pictures)
     for place, picture in enumerate(pictures):
         row, column = divmod(place, COLUMNS)
-        axes = sheet.add_axes((0.01 + 0.3 * column, 1.0 - (row + 0.97) / rows, 0.29, 0.88 / rows))
+        axes = sheet.add_axes((0.01 + 0.292 * column, 1.0 - (row + 0.97) / rows, 0.284, 0.88 / rows))
         _draw(axes, picture, scale, largest_friction or 1.0, window)
-    key = sheet.add_axes((0.925, 0.12, 0.015, 0.76))
-    sheet.colorbar(ScalarMappable(scale, MAP), cax=key).set_label("mean stress of the particle, compression positive [N/m]")
+    key = sheet.add_axes((0.9, 0.12, 0.014, 0.76))
+    sheet.colorbar(ScalarMappable(scale, MAP), cax=key).set_label("mean stress [N/m]")
     return sheet
 
 

@@ -11,7 +11,7 @@ from cross_check.sintering.outcome import Numbers
 FITTED = (0.1, 0.5)
 
 
-def test_numbers(strain: Array, stress: Array, density: Array, pressure: float) -> Numbers:
+def strength_numbers(strain: Array, stress: Array, density: Array, pressure: float) -> Numbers:
     """Numbers of a test from its samples, shapes (T,): strain [-], stress on the top wall [N/m], density [-]."""
     failed = int(np.argmax(stress))
     densest = int(np.argmax(density))

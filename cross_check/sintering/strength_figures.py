@@ -62,7 +62,7 @@ def _slope(study: Study, sample: Sample) -> Line:
 def _strength(study: Study) -> Sheet:
     """Failure stress and strain over the sintering time."""
     looks = {
-        (10, 100): (LIGHT["other-2"], "o"),
+        (10, 100): (LIGHT["yade"], "o"),
         (100, 100): (LIGHT["native"], "s"),
         (10, 300): (LIGHT["other-1"], "^"),
         (100, 300): (LIGHT["liggghts"], "D"),
@@ -78,5 +78,5 @@ def _strength(study: Study) -> Sheet:
                 mean, band = mean_and_spread(seeds)
                 label_of = f"p = {pressure} N/m, N = {size}"
                 lines.append(Line(label_of, np.array(found), mean, band, color, marker=marker, points=True))
-        panels.append(Panel("", "sintering time [s]", label, lines, log_x=True, log_y=True))
+        panels.append(Panel("", "sintering time [s]", label, lines, log_x=True, log_y=quantity == "failure_stress"))
     return Sheet("strength", "Strength over the sintering time", panels)

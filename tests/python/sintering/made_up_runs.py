@@ -97,7 +97,9 @@ def lattice(edge: int, depth: float) -> tuple[Array, NDArray[np.int64]]:
     return place, np.array(pairs, dtype=np.int64)
 
 
-def record(run: Run, scene: dict[str, Any], step: NDArray[np.int64], depth: Array, cooled: Array, strain: Array) -> RunRecord:
+def record(
+    run: Run, scene: dict[str, Any], step: NDArray[np.int64], depth: Array, cooled: Array, strain: Array
+) -> RunRecord:
     """Columns of all samples; `depth` (T,) is the relative overlap of all contacts."""
     edge, samples = EDGE[run.count], len(step)
     count = edge * edge
@@ -116,7 +118,10 @@ def record(run: Run, scene: dict[str, Any], step: NDArray[np.int64], depth: Arra
     rows = len(forces[0])
     elastic = np.concatenate(forces)
     normal = _normals(count, lattice(edge, 0.0)[1], lattice(edge, 0.0)[0])
-    along, across = np.tile(normal, (samples, 1)), np.tile(np.stack([-normal[:, 2], 0 * normal[:, 1], normal[:, 0]], 1), (samples, 1))
+    along, across = (
+        np.tile(normal, (samples, 1)),
+        np.tile(np.stack([-normal[:, 2], 0 * normal[:, 1], normal[:, 0]], 1), (samples, 1)),
+    )
     friction = 0.1 * np.abs(elastic)
     body_force = np.zeros((samples, 4, 3))
     top = run.pressure * (1 + 20 * _hot(run)) * np.minimum(strain / 0.02, 1.0)

@@ -14,7 +14,8 @@ from click.testing import CliRunner, Result
 import crossgrain
 from cross_check.cli import BAD_INPUT, UNEXPECTED, main
 from cross_check.engine import CaseError
-from cross_check.sintering import runner, scenes
+from cross_check.report.figures import Figured
+from cross_check.sintering import figures, scenes
 
 
 @pytest.fixture(autouse=True)
@@ -31,6 +32,13 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     monkeypatch.setattr(crossgrain, "sintering_contact", made_up_runs.contact, raising=False)
     monkeypatch.setattr(crossgrain, "sintering_stiffness", made_up_runs.softening, raising=False)
     return ran
+
+
+@pytest.fixture
+def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Drawing takes most of the time of a made-up study."""
+    nothing: tuple[list[Figured], list[str]] = ([], [])
+    monkeypatch.setattr(figures, "draw_all", lambda study, folder: nothing)
 
 
 def study(out: Path, *arguments: str) -> Result:
@@ -56,6 +64,7 @@ def test_the_quick_form_judges_draws_and_leaves_the_rest_to_the_full_one(tmp_pat
     assert not list((tmp_path / "states").iterdir())
 
 
+@pytest.mark.usefixtures("without_figures")
 def test_a_study_that_was_stopped_goes_on_where_it_was(tmp_path: Path, made_up: list[str]) -> None:
     study(tmp_path)
     made_up.clear()
@@ -71,6 +80,7 @@ def test_a_study_that_was_stopped_goes_on_where_it_was(tmp_path: Path, made_up: 
     assert (tmp_path / "verdicts.json").read_text() == verdicts
 
 
+@pytest.mark.usefixtures("without_figures")
 def test_a_run_that_fails_takes_its_branches_along_and_turns_the_study_red(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -101,7 +111,3 @@ def test_a_branch_that_starts_from_another_scene_is_refused(tmp_path: Path, monk
     assert done.exit_code == BAD_INPUT
     assert "scene.model.normal.k1 differs" in done.output
     assert "sintering-cooled/p=10,N=100,t=0.01/seed=1" in done.output
-
-
-def test_branches_wait_for_their_parents_in_processes_of_their_own() -> None:
-    assert runner.perform.__module__ == "cross_check.sintering.runner"  # a worker finds it by its name
