@@ -1,5 +1,8 @@
 """Bonds that survive a test, and the fragments that contacts or bonds hold together."""
 
+# pyright: reportUnknownVariableType=false, reportUnknownArgumentType=false, reportUnknownMemberType=false
+# scipy leaves its graphs untyped.
+
 from __future__ import annotations
 
 import numpy as np

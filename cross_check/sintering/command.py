@@ -59,7 +59,7 @@ def _failures(study: Study) -> list[str]:
 
 
 def _rates(study: Study) -> list[str]:
-    """Time per particle and step by the number of disks, over all runs that are there, beside each other as they ran."""
+    """Time per particle and step by the number of disks, over all runs that are there."""
     lines: list[str] = []
     for count in sorted({run.count for run in study.outcomes}):
         found = [outcome for run, outcome in study.outcomes.items() if run.count == count and not outcome.failure]

@@ -10,7 +10,7 @@ import crossgrain
 from cross_check.record import Array, RunRecord
 from cross_check.sintering.outcome import Arrays, Numbers
 from cross_check.sintering.scenes import Scene
-from cross_check.sintering.snapshot import inner_box
+from cross_check.sintering.snapshot import Indices, inner_box
 
 # Fewest contacts, those with walls counted, of a disk that is no rattler: one more than dimensions.
 HELD = 3
@@ -59,13 +59,13 @@ def course(scene: Scene, record: RunRecord) -> Arrays:
     }
 
 
-def stage_samples(scene: Scene, record: RunRecord) -> dict[str, Array]:
+def stage_samples(scene: Scene, record: RunRecord) -> dict[str, Indices]:
     """Indices of the samples of each stage, the one at which it begins included, by the stage's name."""
-    found: dict[str, Array] = {}
+    found: dict[str, Indices] = {}
     begin = int(record.step[0])
     for stage in scene["stages"]:
         end = begin + int(stage["steps"])
-        found[stage["name"]] = np.flatnonzero((record.step >= begin) & (record.step <= end))
+        found[stage["name"]] = np.flatnonzero((record.step >= begin) & (record.step <= end)).astype(np.int64)
         begin = end
     return found
 
@@ -91,11 +91,12 @@ def reorganisation(time: Array, density: Array, coordination: Array, stress: Arr
     for first in np.flatnonzero(falling):
         inside[first : first + apart + 1] = True
     every = max(round(STRIDE / interval), 1)
-    quiet = np.std(stress[~inside]) if np.any(~inside) else np.nan
+    rises_by: Array = np.diff(density[::every])
+    quiet = float(np.std(stress[~inside])) if np.any(~inside) else np.nan
     return {
         "C_largest_drop": float(np.min(changes)),
         "C_drop_windows": float(np.sum(falling)),
         "C_windows": float(len(falling)),
-        "nu_smallest_rise": float(np.min(np.diff(density[::every]))),
+        "nu_smallest_rise": float(np.min(rises_by)),
         "stress_std_ratio": float(np.std(stress[inside]) / quiet) if np.any(inside) and quiet > 0.0 else np.nan,
     }

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import json
-from typing import Any
-
 import numpy as np
 
-import crossgrain
-from cross_check.record import Array
 from cross_check.report.palette import DASHED, LIGHT, SOLID
+from cross_check.sintering.law import Law, contact, softening
 from cross_check.sintering.plots import Line, Panel, Sheet
 from cross_check.sintering.study import Study
 
@@ -30,25 +26,20 @@ def figures(study: Study) -> list[Sheet]:
     return [_loops(study.law), _cycle(study.law), _softening(study.law)]
 
 
-def _contact(law: dict[str, Any], overlaps: Array, stiffness: Array) -> dict[str, Array]:
-    """Force [N] and history of a contact that is driven along overlaps [m], with k1 [N/m] at each of them."""
-    return crossgrain.sintering_contact(json.dumps(law), overlaps, stiffness, True)  # pyright: ignore[reportAttributeAccessIssue]
-
-
-def _loops(law: dict[str, Any]) -> Sheet:
+def _loops(law: Law) -> Sheet:
     """Loading to several overlaps, unloading to none, and back."""
     scale = float(law["fluid_overlap"])
     lines: list[Line] = []
     for share, color in zip(LOOPS, COLORS, strict=True):
         up = np.linspace(0.0, share * scale, POINTS)
         path = np.concatenate([up, up[::-1], up])
-        found = _contact(law, path, np.full(len(path), float(law["k1"])))
+        found = contact(law, path, np.full(len(path), float(law["k1"])))
         lines.append(Line(f"loaded to {share:g}", path / scale, found["force"], color=color))
     axes = ("overlap / fluid overlap [-]", "normal force [N]")
     return Sheet("figure-03", "Figure 3: force law with varying stiffness", [Panel("cold contact", *axes, lines)])
 
 
-def _cycle(law: dict[str, Any]) -> Sheet:
+def _cycle(law: Law) -> Sheet:
     """Loops before heating, hot, and after cooling: the contact is loaded cold, k1 falls and rises at rest."""
     cold, scale = float(law["k1"]), float(law["fluid_overlap"])
     load = np.linspace(0.0, scale, POINTS)
@@ -70,7 +61,7 @@ def _cycle(law: dict[str, Any]) -> Sheet:
     looks = {"cold": (LIGHT["native"], SOLID), "hot": (LIGHT["liggghts"], DASHED), "cooled": (LIGHT["yade"], SOLID)}
     curves: dict[str, Line] = {}
     for name, (path, stiffness) in stories.items():
-        found = _contact(law, path, stiffness)
+        found = contact(law, path, stiffness)
         color, dash = looks[name]
         last = slice(-len(loop), None)
         curves[name] = Line(name, path[last] / scale, found["force"][last], color=color, dash=dash)
@@ -83,14 +74,13 @@ def _cycle(law: dict[str, Any]) -> Sheet:
     return Sheet("figure-05", "Figure 5: force laws for varying stiffness k1", panels, [note])
 
 
-def _softening(law: dict[str, Any]) -> Sheet:
+def _softening(law: Law) -> Sheet:
     """k1(T,t) after a step of the temperature."""
     times = np.concatenate([[0.0], np.geomspace(1e-2, LONGEST, POINTS)])
     hot = np.full(len(times), STEP[1])
     hot[0] = STEP[0]
     relaxation = np.full(len(times), RELAXATION)
-    k1 = crossgrain.sintering_stiffness(json.dumps(law), times, hot, relaxation, 1e-3)  # pyright: ignore[reportAttributeAccessIssue]
-    share = np.asarray(k1) / float(law["k1"])
+    share = softening(law, times, hot, relaxation, 1e-3) / float(law["k1"])
     label = "k1(T,t) / k1 [-]"
     lines = [Line("", times, share)]
     panels = [

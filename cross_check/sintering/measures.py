@@ -17,13 +17,13 @@ from cross_check.sintering.course import course, reorganisation, stage_samples
 from cross_check.sintering.outcome import Arrays, Numbers
 from cross_check.sintering.plan import Run
 from cross_check.sintering.scenes import Scene
-from cross_check.sintering.snapshot import Snapshot, check, snapshot
+from cross_check.sintering.snapshot import Indices, Snapshot, check, snapshot
 from cross_check.sintering.states import Sample, forces, relative_overlaps, state_numbers, stress_trace
 from cross_check.sintering.strength import strength_numbers
 
 Measured = tuple[Numbers, Arrays]
 
-# Times of the compression test at which samples are kept for figures [s]; the last one is that of the survival of bonds.
+# Times of the compression test at which states are kept for figures [s]; bonds are counted at the last one.
 SHOWN = (0.005, 0.02, 0.03, 0.035, 0.04)
 SURVIVAL = SHOWN[-1]
 
@@ -139,14 +139,14 @@ _STAGES = {
 }
 
 
-def _at_ends(record: RunRecord, stages: dict[str, np.ndarray], sample: Sample, names: tuple[str, ...]) -> Numbers:
+def _at_ends(record: RunRecord, stages: dict[str, Indices], sample: Sample, names: tuple[str, ...]) -> Numbers:
     found: Numbers = {}
     for name in names:
         found |= _named(name, state_numbers(snapshot(record, int(stages[name][-1])), sample))
     return found
 
 
-def _contacts(series: Arrays, stages: dict[str, np.ndarray]) -> Numbers:
+def _contacts(series: Arrays, stages: dict[str, Indices]) -> Numbers:
     found: Numbers = {}
     for name, samples in stages.items():
         found |= _named(name, _contact_numbers(series, int(samples[-1])))

@@ -123,9 +123,13 @@ def draw(axes: Axes, panel: Panel) -> None:
         if log:
             axis.set_major_locator(LogLocator(numticks=7))
             axis.set_minor_locator(NullLocator())
-            axis.set_major_formatter(FuncFormatter(lambda value, _: notation.short(value)))
+            axis.set_major_formatter(FuncFormatter(_tick))
     if any(line.label for line in panel.lines):
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), fontsize=7, frameon=False, handlelength=3)
+
+
+def _tick(value: float, _: int | None) -> str:
+    return notation.short(value)
 
 
 def _positive(line: Line) -> Line:

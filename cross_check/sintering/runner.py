@@ -5,7 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from pathlib import Path
@@ -64,7 +64,7 @@ def _made(missing: list[Planned], found: Outcomes, out: Path, jobs: int) -> Iter
 
 
 @contextmanager
-def _workers(jobs: int) -> Iterator[Callable[[Planned, Path], Future[Outcome]]]:
+def _workers(jobs: int) -> Generator[Callable[[Planned, Path], Future[Outcome]]]:
     """Starts runs in processes of their own; a single one at a time runs in this process."""
     if jobs > 1:
         context = multiprocessing.get_context("spawn")

@@ -20,6 +20,8 @@ from cross_check.suites import FOLDER
 Scene = dict[str, Any]
 """A scene as JSON (docs/formats.md); one that branches off holds the scene of its start in `start`."""
 
+_engine: Any = crossgrain
+
 
 @dataclass
 class Planned:
@@ -36,7 +38,7 @@ def load(run: Run) -> Scene:
     """The one scene of a run. Raises CaseError, or StudyError where the case makes another number of scenes."""
     path = FOLDER / f"{run.case.replace('-', '_')}.toml"
     try:
-        found = json.loads(crossgrain.load_case(path, run.overrides, run.variant))  # pyright: ignore[reportCallIssue]
+        found = json.loads(_engine.load_case(path, run.overrides, run.variant))
     except ValueError as error:
         raise CaseError(f"{run.name}: {error}") from error
     scenes = [scene for scene in found["scenes"] if scene["refinement"] == 0 and scene["variant"] == run.variant]
@@ -48,7 +50,7 @@ def load(run: Run) -> Scene:
 def simulate(scene: Scene, folder: Path, states: Path, save_at: list[int]) -> RunRecord:
     """Runs a scene and returns its record, which lies in `folder`. Raises CaseError or RecordError."""
     try:
-        crossgrain.run_scene(json.dumps(scene), folder, 1, states=states, save_at=save_at)  # pyright: ignore[reportCallIssue]
+        _engine.run_scene(json.dumps(scene), folder, 1, states=states, save_at=save_at)
     except ValueError as error:
         raise CaseError(str(error)) from error
     return read(folder)

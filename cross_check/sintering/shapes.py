@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.stats import spearmanr
+from scipy.stats import spearmanr  # pyright: ignore[reportUnknownVariableType]
 
-import crossgrain
 from cross_check.sintering.errors import StudyError
+from cross_check.sintering.law import softening
 from cross_check.sintering.study import NotPlanned, Sample, Study, Values, over
 
 
@@ -151,12 +151,11 @@ def softening_rate(study: Study, sample: Sample, asked: dict[str, Any]) -> Evide
     relaxation, step = 1e3, 1e-3
     found: dict[float, float] = {}
     for temperature in map(float, asked["values"]):
-        times, hot = np.array([0.0, step, 2.0 * step]), [float(asked["cold"]), temperature, temperature]
-        arguments = (json.dumps(study.law), times, np.array(hot), np.full(3, relaxation), step)
-        k1 = crossgrain.sintering_stiffness(*arguments)  # pyright: ignore[reportAttributeAccessIssue]
-        found[temperature] = abs(k1[2] - k1[1]) / step * relaxation / float(study.law["k1"])
+        times, hot = np.array([0.0, step, 2.0 * step]), np.array([float(asked["cold"]), temperature, temperature])
+        k1 = softening(study.law, times, hot, np.full(3, relaxation), step)
+        found[temperature] = abs(float(k1[2] - k1[1])) / step * relaxation / float(study.law["k1"])
     rates = list(found.values())
-    rises = all(low < high for low, high in zip(rates, rates[1:], strict=False))
+    rises = all(low < high for low, high in pairwise(rates))
     worst = _most([abs(found[float(at)] / float(value) - 1.0) for at, value in asked["values"].items()])
     note = ", ".join(f"{rate:.4g} at {at:g} K" for at, rate in found.items())
     return Evidence(worst if rises else np.nan, [worst], note if rises else f"does not rise: {note}")
@@ -197,7 +196,8 @@ def _worst(asked: dict[str, Any]) -> Callable[[list[float]], float]:
 
 def _rank(times: list[float], values: list[float]) -> float:
     """NaN where all values are the same: they have no rank."""
-    return float(spearmanr(times, values).statistic) if np.ptp(values) > 0.0 else np.nan
+    found: Any = spearmanr(times, values) if np.ptp(values) > 0.0 else None
+    return np.nan if found is None else float(found.statistic)
 
 
 def _mean(values: Values) -> float:

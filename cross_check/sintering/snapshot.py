@@ -21,8 +21,8 @@ class Snapshot:
 
     `position` (N, 2) [m]; `radius` (N,) at the present temperature and `start_radius` (N,) at that of the start [m];
     `box` the inner width and height [m]; `corner` the lower left one [m]; `pair` (M, 2): a particle, and another one or
-    N + a wall; `normal` (M, 2) from the second to the first [-]; `overlap` (M,) [m]; `elastic` (M,) [N], positive where it
-    repels; `limit` (M,), the largest friction [N]; `force` (M, 2) on the first [N]; `largest_overlap` (M,) [m].
+    N + a wall; `normal` (M, 2) from the second to the first [-]; `overlap` (M,) [m]; `elastic` (M,) [N], positive where
+    it repels; `limit` (M,), the largest friction [N]; `force` (M, 2) on the first [N]; `largest_overlap` (M,) [m].
     `loading_stiffness` is k1(T, t) [N/m], `temperature` that of the particles [K].
     """
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cross_check.record import Array
 from cross_check.sintering.outcome import Numbers
-from cross_check.sintering.snapshot import Snapshot
+from cross_check.sintering.snapshot import Indices, Snapshot
 
 # Mean radius a0 of the samples at the melting temperature [m]; forces are given in units of 2 a0 p.
 MEAN_RADIUS = 1e-3
@@ -54,7 +55,7 @@ def densities(state: Snapshot) -> Numbers:
 def wall_effect(state: Snapshot) -> Numbers:
     """Mean number of contacts with other particles of those particles that touch a wall, and of the rest."""
     both = state.between_particles
-    contacts = np.bincount(state.pair[both].ravel(), minlength=state.count)
+    contacts = np.bincount(state.pair[both].ravel(), minlength=state.count).astype(np.int64)
     at_wall = np.zeros(state.count, dtype=bool)
     at_wall[state.pair[~both, 0]] = True
     return {"C_at_walls": _mean(contacts[at_wall]), "C_inside": _mean(contacts[~at_wall])}
@@ -63,7 +64,7 @@ def wall_effect(state: Snapshot) -> Numbers:
 def relative_overlaps(state: Snapshot) -> Array:
     """Overlaps of pairs of particles over the sums of their radii [-]."""
     both = state.between_particles
-    first, second = state.pair[both].T
+    first, second = state.pair[both][:, 0], state.pair[both][:, 1]
     return state.overlap[both] / (state.radius[first] + state.radius[second])
 
 
@@ -83,7 +84,7 @@ def forces(state: Snapshot, sample: Sample) -> Array:
 
 
 def force_numbers(found: Array) -> Numbers:
-    """Moments and extremes of the normal forces, the share that attracts, and how strong attraction is beside repulsion."""
+    """Moments and extremes of the normal forces, the share that attracts, and mean attraction over mean repulsion."""
     pull, push = found[found < 0.0], found[found > 0.0]
     return {
         "f_mean": _mean(found),
@@ -115,11 +116,11 @@ def friction_numbers(state: Snapshot, sample: Sample) -> Numbers:
 def particle_stress(state: Snapshot) -> Array:
     """Stress of each particle, shape (N, 2, 2) [N/m], compression positive.
 
-    (1/V) sum over its contacts of l f, with V = pi a^2, l the vector from the contact to the centre and f the force on the
-    particle: the sign is turned against that of l from the centre to the contact.
+    (1/V) sum over its contacts of l f, with V = pi a^2, f the force on the particle and l the vector from the contact
+    to the centre: the sign is turned against that of a vector from the centre to the contact.
     """
     stress = np.zeros((state.count, 2, 2))
-    first, second = state.pair.T
+    first, second = state.pair[:, 0], state.pair[:, 1]
     both = state.between_particles
     arm = state.radius[first][:, None] * state.normal
     np.add.at(stress, first, np.einsum("md,me->mde", arm, state.force))
@@ -145,7 +146,7 @@ def stress_numbers(state: Snapshot) -> Numbers:
     return {"stress_trace_mean": _mean(stress_trace(state)), "stress_deviator_mean": _mean(stress_deviator(state))}
 
 
-def _mean(values: Array) -> float:
+def _mean(values: Array | Indices | NDArray[np.bool_]) -> float:
     return float(np.mean(values)) if len(values) else np.nan
 
 

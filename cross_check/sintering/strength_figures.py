@@ -1,4 +1,4 @@
-"""Figures of the compression test: density (16, 18) and stress (17, 19) over strain, and strength over sintering time."""
+"""Figures of the compression test: density (16, 18) and stress (17, 19) over strain, and the strength."""
 
 from __future__ import annotations
 

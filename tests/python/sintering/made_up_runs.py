@@ -31,7 +31,9 @@ INWARD = {"left": (1, 0, 0), "bottom": (0, 0, 1), "right": (-1, 0, 0), "top": (0
 
 def scene(run: Run) -> dict[str, Any]:
     """A scene with what the study reads; `told` hands the run to the made-up engine."""
-    stages = [{"name": name, "steps": round(span / STEP), "actions": []} for name, span in STAGES[run.test].items()]
+    stages: list[dict[str, Any]] = [
+        {"name": name, "steps": round(span / STEP), "actions": []} for name, span in STAGES[run.test].items()
+    ]
     found: dict[str, Any] = {
         "case": run.case,
         "variant": run.variant,
@@ -63,14 +65,19 @@ def simulate(scene: dict[str, Any], folder: Path, states: Path, save_at: list[in
     for step in save_at:
         (states / f"{run.case}-{step}").write_text("state")
     ends = np.cumsum([0, *(stage["steps"] for stage in scene["stages"])])
-    inner = np.linspace(0, ends[-1], SAMPLES).astype(np.int64)
+    inner = np.round(np.linspace(0.0, float(ends[-1]), SAMPLES), 0).astype(np.int64)
     step = np.union1d(inner, ends)
     if run.test == plan.BOX:  # every 5 ms, as the cases do
         every = round(5e-3 / STEP)
-        step = np.union1d(np.concatenate([np.arange(a, b, every) for a, b in itertools.pairwise(ends)]), ends)
+        begun = [np.arange(int(a), int(b), every, dtype=np.int64) for a, b in itertools.pairwise(ends)]
+        step = np.union1d(np.concatenate(begun), ends)
     time = step * STEP
-    hot = np.clip((time - 0.3) / 1.0, 0, 1) if run.test in (plan.BOX, plan.THREE) else np.full(len(time), _hot(run))
-    cooled = np.zeros(len(time)) if run.test in (plan.BOX, plan.THREE) else np.clip(time / 0.1, 0, 1)
+    hot = (
+        np.minimum(np.maximum(time - 0.3, 0.0), 1.0)
+        if run.test in (plan.BOX, plan.THREE)
+        else np.full(len(time), _hot(run))
+    )
+    cooled = np.zeros(len(time)) if run.test in (plan.BOX, plan.THREE) else np.minimum(time / 0.1, 1.0)
     if run.test not in (plan.BOX, plan.COOLED, plan.THREE):
         cooled[:] = 1.0
     depth = 1e-3 * (run.pressure / 10) ** 0.9 * (0.1 + hot**0.3) * (1 + 0.3 * cooled) + 1e-5 * run.seed
@@ -94,7 +101,7 @@ def lattice(edge: int, depth: float) -> tuple[Array, NDArray[np.int64]]:
         pairs += [(int(i), count + wall) for i in np.flatnonzero(at)]
     spacing = 2 * RADIUS * (1 - depth)
     place = RADIUS * (1 - depth) + spacing * np.stack([column, np.zeros(count), row], axis=1)
-    return place, np.array(pairs, dtype=np.int64)
+    return place.astype(np.float64), np.array(pairs, dtype=np.int64)
 
 
 def record(
@@ -125,7 +132,9 @@ def record(
     friction = 0.1 * np.abs(elastic)
     body_force = np.zeros((samples, 4, 3))
     top = run.pressure * (1 + 20 * _hot(run)) * np.minimum(strain / 0.02, 1.0)
-    body_force[:, 3, 2] = (run.pressure + top - top * np.clip((strain - 0.02) / 0.02, 0, 0.5)) * point[:, 2, 0]
+    body_force[:, 3, 2] = (run.pressure + top - top * np.minimum(np.maximum((strain - 0.02) / 0.02, 0.0), 0.5)) * point[
+        :, 2, 0
+    ]
     memory = np.zeros((samples * rows, 5))
     memory[:, 0] = np.repeat(2 * RADIUS * np.maximum.accumulate(depth), rows)
     columns: dict[str, NDArray[Any]] = {

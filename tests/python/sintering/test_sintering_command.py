@@ -16,6 +16,7 @@ from cross_check.cli import BAD_INPUT, UNEXPECTED, main
 from cross_check.engine import CaseError
 from cross_check.report.figures import Figured
 from cross_check.sintering import figures, scenes
+from cross_check.sintering.study import Study
 
 
 @pytest.fixture(autouse=True)
@@ -37,8 +38,11 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Drawing takes most of the time of a made-up study."""
-    nothing: tuple[list[Figured], list[str]] = ([], [])
-    monkeypatch.setattr(figures, "draw_all", lambda study, folder: nothing)
+
+    def nothing(study: Study, folder: Path) -> tuple[list[Figured], list[str]]:
+        return [], []
+
+    monkeypatch.setattr(figures, "draw_all", nothing)
 
 
 def study(out: Path, *arguments: str) -> Result:

@@ -130,7 +130,8 @@ def test_a_rank_is_that_of_the_means_and_a_fall_the_steepest_factor() -> None:
 def test_gains_and_jumps_compare_the_pressures() -> None:
     study = series({(10, 0.01, 1): 1.0, (10, 1.0, 1): 3.0, (100, 0.01, 1): 10.0, (100, 1.0, 1): 40.0})
     assert value(study, "gain_ratio", times=[1.0], base=0.01)[0] == pytest.approx(15.0)
-    assert value(study, "jump_ratio", **{"from": 0.01, "until": 1.0})[0] == pytest.approx(0.75)
+    times: dict[str, Any] = {"from": 0.01, "until": 1.0}
+    assert value(study, "jump_ratio", **times)[0] == pytest.approx(0.75)
 
 
 def test_a_deviation_is_the_largest_of_all_seeds_and_times() -> None:
