@@ -144,6 +144,9 @@ impl Bed {
             cylinder_curvature: None,
             start: Start::Synchronized,
             ledger: false,
+            accounts: false,
+            temperature: None,
+            expansions: Vec::new(),
             skin: None,
         }
     }

@@ -1,7 +1,9 @@
-//! Walls: planes and cylinders that stand still or move as prescribed.
+//! Walls: planes and cylinders that stand still, move as prescribed, or follow the load on them.
+
+use std::f64::consts::PI;
 
 use crate::Vector;
-use crate::case::scene::{SceneBody, SceneMotion, SceneShape};
+use crate::case::scene::{SceneBody, SceneLoad, SceneMotion, SceneShape};
 use crate::geometry::{self, ContactGeometry};
 
 /// Shape of a body, about its point.
@@ -21,6 +23,58 @@ pub enum BodyShape {
     },
 }
 
+/// What moves a body.
+#[derive(Clone, Copy, Debug)]
+pub enum Drive {
+    /// Its velocity stays.
+    Constant,
+    /// The load on it: m dv/dt = (F - load) . direction - damping v, with F of the particles.
+    Servo {
+        /// Unit vector away from the particles [-].
+        direction: Vector,
+        /// External load.
+        load: SceneLoad,
+        /// Mass [kg].
+        mass: f64,
+        /// Dashpot constant [kg/s].
+        damping: f64,
+    },
+    /// A path about the point where it began.
+    Along {
+        /// Direction, whose length is the amplitude [m].
+        amplitude: Vector,
+        /// How it moves along it.
+        course: Course,
+        /// Step at which it began.
+        since: u64,
+    },
+}
+
+/// The share of its amplitude that a path has reached.
+#[derive(Clone, Copy, Debug)]
+pub enum Course {
+    /// (1 - cos(pi t / duration)) / 2, then 1.
+    Strain {
+        /// Duration [steps].
+        steps: u64,
+    },
+    /// sin(2 pi frequency t).
+    Oscillation {
+        /// Frequency [Hz].
+        frequency: f64,
+    },
+}
+
+impl Course {
+    fn share(self, steps: u64, dt: f64) -> f64 {
+        match self {
+            Self::Strain { steps: all } if steps >= all => 1.0,
+            Self::Strain { steps: all } => 0.5 * (1.0 - libm::cos(PI * (steps as f64 / all as f64))),
+            Self::Oscillation { frequency } => libm::sin(2.0 * PI * frequency * (steps as f64 * dt)),
+        }
+    }
+}
+
 /// A body and its state.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -28,11 +82,17 @@ pub struct Body {
     pub name: String,
     /// Index of the material.
     pub material: usize,
+    /// Whether it is there: no particle touches a body that was removed.
+    pub present: bool,
     /// A point of the plane or of the axis [m].
     pub point: Vector,
+    /// Where its path began [m].
+    pub origin: Vector,
     /// Shape about the point.
     pub shape: BodyShape,
-    /// Velocity [m/s].
+    /// What moves it.
+    pub drive: Drive,
+    /// Velocity; that of a servo wall stands half a step ahead of its point [m/s].
     pub velocity: Vector,
     /// Force of the particles on the body [N].
     pub force: Vector,
@@ -48,19 +108,43 @@ impl Body {
                 (*point, BodyShape::Cylinder { axis: (*axis).into(), radius: *radius })
             }
         };
-        Self {
+        let mut body = Self {
             name: scene.name.clone(),
             material: scene.material,
+            present: true,
             point: point.into(),
+            origin: point.into(),
             shape,
-            velocity: velocity(&scene.motion),
+            drive: Drive::Constant,
+            velocity: Vector::zeros(),
             force: Vector::zeros(),
+        };
+        body.set_motion(&scene.motion, 0);
+        body
+    }
+
+    /// Gives the body another motion at a step. A wall that becomes a servo wall keeps its velocity.
+    pub fn set_motion(&mut self, motion: &SceneMotion, step: u64) {
+        self.drive = Drive::Constant;
+        match motion {
+            SceneMotion::Fixed => self.velocity = Vector::zeros(),
+            SceneMotion::Prescribed { velocity } => self.velocity = (*velocity).into(),
+            SceneMotion::Servo { direction, load, mass, damping } => {
+                let direction = Vector::from(*direction);
+                self.velocity = direction * self.velocity.dot(&direction);
+                self.drive = Drive::Servo { direction, load: *load, mass: *mass, damping: *damping };
+            }
+            SceneMotion::Oscillating { direction, amplitude, frequency } => {
+                let course = Course::Oscillation { frequency: *frequency };
+                self.set_path(Vector::from(*direction) * *amplitude, course, step);
+            }
         }
     }
 
-    /// Gives the body another motion.
-    pub fn set_motion(&mut self, motion: &SceneMotion) {
-        self.velocity = velocity(motion);
+    /// Lets the body follow a path from its present point on.
+    pub fn set_path(&mut self, amplitude: Vector, course: Course, step: u64) {
+        self.origin = self.point;
+        self.drive = Drive::Along { amplitude, course, since: step };
     }
 
     /// Contact geometry of a sphere with this body. None where no normal exists: on the axis of a cylinder.
@@ -74,15 +158,33 @@ impl Body {
         }
     }
 
-    /// Moves the body over a step `dt` [s].
-    pub fn drift(&mut self, dt: f64) {
-        self.point += self.velocity * dt;
+    /// Moves the body over a step `dt` [s] to `step`.
+    pub fn drift(&mut self, dt: f64, step: u64) {
+        if let Drive::Along { amplitude, course, since } = self.drive {
+            let point = self.origin + amplitude * course.share(step - since, dt);
+            self.velocity = (point - self.point) / dt;
+            self.point = point;
+        } else {
+            self.point += self.velocity * dt;
+        }
     }
 }
 
-fn velocity(motion: &SceneMotion) -> Vector {
-    match motion {
-        SceneMotion::Fixed => Vector::zeros(),
-        SceneMotion::Prescribed { velocity } => (*velocity).into(),
+/// Kicks servo walls over `dt` [s] by the loads on them.
+pub fn kick(bodies: &mut [Body], dt: f64) {
+    for at in 0..bodies.len() {
+        let Drive::Servo { direction, load, mass, damping } = bodies[at].drive else { continue };
+        let external = match load {
+            SceneLoad::Force { value } => value,
+            SceneLoad::LineStress { value, between: [one, other] } => {
+                let span = bodies[other].point - bodies[one].point;
+                // The planes are parallel; a case says so or is refused.
+                let BodyShape::Plane { normal } = bodies[one].shape else { continue };
+                value * span.dot(&normal).abs()
+            }
+        };
+        let body = &mut bodies[at];
+        let force = body.force.dot(&direction) - external - damping * body.velocity.dot(&direction);
+        body.velocity += direction * (force * dt / mass);
     }
 }

@@ -68,7 +68,12 @@ pub struct Stated {
     pub case: Case,
     /// Its variants.
     pub variants: Vec<sweep::Variant>,
+    /// Overrides as they were given.
+    given: Vec<String>,
 }
+
+/// Overrides for the case that a case starts from begin with this.
+const START: &str = "start.";
 
 impl Stated {
     /// Reads a case from text; `file` is its name in messages.
@@ -83,19 +88,45 @@ impl Stated {
         // The text itself is read first: its errors know their line.
         let mut case: Case = toml::from_str(&text.text).map_err(|error| text.malformed(&error))?;
         let mut table: toml::Table = toml::from_str(&text.text).map_err(|error| text.malformed(&error))?;
-        if !overrides.is_empty() {
-            text.overrides = sweep::parse_overrides(overrides).map_err(|problem| text.invalid(None, problem))?;
+        let own: Vec<String> = overrides.iter().filter(|given| !given.starts_with(START)).cloned().collect();
+        if !own.is_empty() {
+            text.overrides = sweep::parse_overrides(&own).map_err(|problem| text.invalid(None, problem))?;
             (table, case) = text.overridden(&table)?;
         }
         if let Some(problem) = check::sweeps(&case).into_iter().next() {
             return Err(text.invalid(None, problem));
         }
         let variants = sweep::variants(&text, &table, &case)?;
-        let stated = Self { text, case, variants };
+        let given = overrides.to_vec();
+        let stated = Self { text, case, variants, given };
         for variant in &stated.variants {
             stated.refuse(variant, |variant| check::case(&variant.case).into_iter().next())?;
         }
         Ok(stated)
+    }
+
+    /// Keeps one variant only.
+    ///
+    /// # Errors
+    /// There is no such variant.
+    pub fn only(mut self, name: &str) -> Result<Self, Error> {
+        let known = self.variants.iter().map(|variant| variant.name.as_str()).collect::<Vec<_>>().join(" ");
+        self.variants.retain(|variant| variant.name == name);
+        if self.variants.is_empty() {
+            return Err(Error::UnknownVariant { wanted: name.to_owned(), known });
+        }
+        Ok(self)
+    }
+
+    /// The case that this one starts from: a file of its folder, named as the case with `_` for `-`. Overrides that begin
+    /// with `start.` are for it.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn ancestor(&self, name: &str) -> Result<Self, Error> {
+        let folder = std::path::Path::new(&self.text.file).parent().unwrap_or_else(|| std::path::Path::new(""));
+        let overrides: Vec<String> = self.given.iter().filter_map(|given| given.strip_prefix(START)).map(str::to_owned).collect();
+        read(&folder.join(name.replace('-', "_") + ".toml"), &overrides)
     }
 
     /// Prepares the scenes that this build runs.
@@ -108,7 +139,7 @@ impl Stated {
             for seed in variant.seeds() {
                 for refinement in variant.case.time.levels() {
                     let prepare =
-                        |variant: &sweep::Variant| scene::prepare(&variant.case, &variant.name, seed, refinement);
+                        |variant: &sweep::Variant| scene::start::scene(&self, variant, seed, refinement);
                     match prepare(variant) {
                         Ok(scene) => scenes.push(scene),
                         Err(_) => self.refuse(variant, |variant| prepare(variant).err())?,

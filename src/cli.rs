@@ -188,7 +188,7 @@ fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
             let loaded = case::read(case, &[])?.load()?;
             say(format!("{}: {} variants, {} scenes", loaded.case.name, loaded.variants.len(), loaded.scenes.len()))
         }
-        Command::Scenes { case, set } => say(loaded_json(case, set)?),
+        Command::Scenes { case, set } => say(loaded_json(case, set, None)?),
         Command::Schema => say(serde_json::to_string_pretty(&case::json_schema()).unwrap_or_default()),
     }
 }
@@ -197,8 +197,9 @@ fn execute(command: &Command, out: &mut impl Write) -> Result<(), Error> {
 ///
 /// # Errors
 /// The case cannot be read or run.
-pub fn loaded_json(path: &Path, overrides: &[String]) -> Result<String, Error> {
-    let loaded = case::read(path, overrides)?.load()?;
+pub fn loaded_json(path: &Path, overrides: &[String], variant: Option<&str>) -> Result<String, Error> {
+    let stated = case::read(path, overrides)?;
+    let loaded = variant.map_or_else(|| Ok(stated.clone()), |name| stated.clone().only(name))?.load()?;
     serde_json::to_string(&loaded)
         .map_err(|error| Error::Parse { file: path.display().to_string(), message: error.to_string() })
 }

@@ -76,20 +76,22 @@ pub struct Account {
     pub energy: f64,
     /// Its part in the contact plane and in moments [J].
     pub springs: f64,
+    /// Largest force in the contact plane that friction allows [N].
+    pub friction_limit: f64,
 }
 
 impl Memory for Account {
-    const WIDTH: usize = 7;
+    const WIDTH: usize = 8;
 
     fn save(&self, into: &mut Vec<f64>) {
         self.force.save(into);
-        into.extend([self.normal_force, self.damping_force, self.energy, self.springs]);
+        into.extend([self.normal_force, self.damping_force, self.energy, self.springs, self.friction_limit]);
     }
 
     fn restore(values: &mut impl Iterator<Item = f64>) -> Self {
         let (force, (normal_force, damping_force)) = <(Vector, (f64, f64))>::restore(values);
-        let (energy, springs) = <(f64, f64)>::restore(values);
-        Self { force, normal_force, damping_force, energy, springs }
+        let (energy, springs, friction_limit) = <(f64, f64, f64)>::restore(values);
+        Self { force, normal_force, damping_force, energy, springs, friction_limit }
     }
 }
 
@@ -106,7 +108,24 @@ pub struct Slots<C, H> {
     pub accounts: Vec<Account>,
 }
 
+/// A living contact at one step.
+#[derive(Clone, Copy, Debug)]
+pub struct Living<H> {
+    /// Ids of both particles, the smaller first, or the particle and the number of particles plus the index of the body.
+    pub pair: [u32; 2],
+    /// What it does.
+    pub account: Account,
+    /// What it remembers.
+    pub history: H,
+}
+
 impl<C, H: Memory> Slots<C, H> {
+    fn living(&self, pair: impl Fn(&C) -> [u32; 2], into: &mut Vec<Living<H>>) {
+        for (slot, account) in self.accounts.iter().enumerate().filter(|(slot, _)| self.alive[*slot]) {
+            into.push(Living { pair: pair(&self.candidates[slot]), account: *account, history: self.history[slot] });
+        }
+    }
+
     fn new(candidates: Vec<C>, ledger: bool) -> Self {
         let count = candidates.len();
         Self {
@@ -244,22 +263,17 @@ impl<H: Memory> Contacts<H> {
         self.blocks.iter().map(Block::bytes).sum::<usize>() + own
     }
 
-    /// The living contacts, ordered: ids of both particles, the smaller first, or the particle and the number of particles
-    /// plus the index of the body; force on the first [N]. Needs the ledger, which keeps the forces of pairs.
+    /// The living contacts, ordered. Needs accounts of the present step.
     #[must_use]
-    pub fn forces(&self, particles: &Particles) -> Vec<([u32; 2], Vector)> {
+    pub fn living_contacts(&self, particles: &Particles) -> Vec<Living<H>> {
         let id = |at: usize| particles.motion[at].id;
         let bodies = u32::try_from(particles.len()).unwrap_or(u32::MAX);
         let mut found = Vec::new();
         for block in &self.blocks {
-            let pairs = block.pairs.candidates.iter().zip(&block.pairs.alive).zip(&block.pairs.accounts);
-            let living = pairs.filter(|((_, alive), _)| **alive);
-            found.extend(living.map(|((pair, _), account)| ([id(pair.i()), id(pair.j())], account.force)));
-            let near = block.near.candidates.iter().zip(&block.near.alive).zip(&block.body_forces);
-            let living = near.filter(|((_, alive), _)| **alive);
-            found.extend(living.map(|((near, _), force)| ([id(near.particle as usize), bodies + near.body], *force)));
+            block.pairs.living(|pair| [id(pair.i()), id(pair.j())], &mut found);
+            block.near.living(|near| [id(near.particle as usize), bodies + near.body], &mut found);
         }
-        found.sort_unstable_by_key(|(pair, _)| *pair);
+        found.sort_unstable_by_key(|living| living.pair);
         found
     }
 

@@ -44,6 +44,19 @@ pub struct PairLaw {
     pub twisting_friction: f64,
     /// Work of adhesion W, twice the surface energy of like solids [J/m2].
     pub work_of_adhesion: f64,
+    /// Whether the contact may pull, for laws whose cohesion is a value of the model.
+    pub cohesive: bool,
+}
+
+/// What acts on all contacts alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Surroundings {
+    /// Temperature of the particles [K]; zero where the case states none.
+    pub temperature: f64,
+    /// The same one step ago [K].
+    pub temperature_before: f64,
+    /// Relaxation time that a stage has set [s].
+    pub relaxation_time: Option<f64>,
 }
 
 /// Normal kinematics of a contact.
@@ -80,6 +93,8 @@ pub struct NormalState {
     pub energy: f64,
     /// Energy dissipated by plastic flow since the last evaluation [J].
     pub plastic: f64,
+    /// Share of the pair's coefficient of friction that is left: below 1 where heat softens it [-].
+    pub friction_share: f64,
 }
 
 /// Energies that the springs of a contact lost over one step, each as its law defines it [J].
@@ -125,8 +140,11 @@ pub trait NormalLaw: Copy + Send + Sync {
     /// does not live may be evaluated beside others.
     const BATCHED: bool = false;
 
-    /// Advances the shared state by `dt` [s] to `time` [s].
-    fn advance(&self, _shared: &mut Self::Shared, _time: f64, _dt: f64) {}
+    /// What the numbers of the shared state are, for records: names with units, in the order of [`Memory::save`].
+    const SHARED: &'static [(&'static str, &'static str)] = &[];
+
+    /// Advances the shared state by `dt` [s] to the present surroundings.
+    fn advance(&self, _shared: &mut Self::Shared, _surroundings: &Surroundings, _dt: f64) {}
 
     /// The force at a contact that is alive.
     fn evaluate(
@@ -139,7 +157,14 @@ pub trait NormalLaw: Copy + Send + Sync {
 
     /// Lets the tangential force act back on the normal force: laws whose sliding contacts do not pull override it.
     #[inline(always)]
-    fn finish(&self, state: NormalState, _sliding: bool, _history: &mut Self::History) -> NormalState {
+    fn finish(
+        &self,
+        state: NormalState,
+        _sliding: bool,
+        _overlap: f64,
+        _shared: &Self::Shared,
+        _history: &mut Self::History,
+    ) -> NormalState {
         state
     }
 
@@ -162,6 +187,8 @@ pub struct TangentialState {
     pub force: Vector,
     /// Whether the contact slides.
     pub sliding: bool,
+    /// Largest force that friction allows [N].
+    pub limit: f64,
     /// Lever arms from the two centres to the contact [m]; the law owns them.
     pub arms: [f64; 2],
     /// Stiffness in the contact plane [N/m].

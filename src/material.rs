@@ -32,6 +32,27 @@ pub struct Material {
     pub poisson: Option<f64>,
     /// Density [kg/m3].
     pub density: Option<f64>,
+    /// Thermal expansion of radii, where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expansion: Option<Expansion>,
+}
+
+/// Linear thermal expansion: a(T) = a(`T_r`) (1 + e (T - `T_r`)), whatever the mass.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expansion {
+    /// e [1/K].
+    pub coefficient: f64,
+    /// `T_r`, at which the case gives the radii [K].
+    pub reference_temperature: f64,
+}
+
+impl Expansion {
+    /// a(T) / a(`T_r`) at a temperature [K].
+    #[must_use]
+    pub fn factor(&self, temperature: f64) -> f64 {
+        1.0 + self.coefficient * (temperature - self.reference_temperature)
+    }
 }
 
 impl Material {
@@ -89,6 +110,9 @@ pub struct PairProperties {
     /// Work of adhesion W [J/m2], where a law asks for it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work_of_adhesion: Option<f64>,
+    /// Whether the contact may pull, where a law asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cohesive: Option<bool>,
 }
 
 impl PairProperties {
@@ -107,6 +131,7 @@ impl PairProperties {
             rolling_friction: self.rolling_friction.unwrap_or_default(),
             twisting_friction: self.twisting_friction.unwrap_or_default(),
             work_of_adhesion: self.work_of_adhesion.unwrap_or_default(),
+            cohesive: self.cohesive.unwrap_or_default(),
         }
     }
 }
@@ -154,11 +179,12 @@ mod tests {
             young: Some(young),
             poisson: Some(poisson),
             density: Some(2500.0),
+            expansion: None,
         }
     }
 
     fn rigid() -> Material {
-        Material { name: "wall".into(), rigid: true, young: None, poisson: None, density: None }
+        Material { name: "wall".into(), rigid: true, young: None, poisson: None, density: None, expansion: None }
     }
 
     #[test]

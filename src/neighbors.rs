@@ -52,6 +52,8 @@ pub struct Neighbors {
     strayed: f64,
     /// Gap beyond the reach of the law up to which candidates were selected [m].
     margin: f64,
+    /// Sum of what radii grew since the list was built, shrinking not counted [m].
+    pub grown: f64,
 }
 
 impl Neighbors {
@@ -66,13 +68,23 @@ impl Neighbors {
             travelled: f64::INFINITY,
             strayed: f64::INFINITY,
             margin: 0.0,
+            grown: 0.0,
         }
     }
 
     /// Square of the displacement that makes the list stale [m2].
     #[must_use]
     pub fn allowance(&self) -> f64 {
-        0.25 * self.skin * self.skin
+        let half = (0.5 * self.skin - self.grown).max(0.0);
+        half * half
+    }
+
+    /// Says that radii grew by at most `step` [m].
+    pub fn grow(&mut self, step: f64) {
+        if step > 0.0 {
+            self.grown += step;
+            self.moved(step);
+        }
     }
 
     /// Says that no particle moved further than `step` [m]; infinity where nobody knows.
@@ -118,7 +130,7 @@ impl Neighbors {
     pub fn search(&mut self, particles: &Particles, bodies: &[Body], domain: &Domain) -> (Vec<[u32; 2]>, Vec<Near>) {
         self.built = particles.place.iter().map(|place| place.position).collect();
         self.built_bodies = bodies.iter().map(|body| body.point).collect();
-        (self.travelled, self.strayed) = (0.0, f64::INFINITY);
+        (self.travelled, self.strayed, self.grown) = (0.0, f64::INFINITY, 0.0);
         let gap = self.skin + self.reach;
         let cells = Cells::new(particles, domain, gap);
         let count = u32::try_from(particles.len()).unwrap_or(u32::MAX);
@@ -147,7 +159,7 @@ fn near_bodies(particles: &Particles, bodies: &[Body], gap: f64, range: std::ops
     let mut near = Vec::new();
     for particle in range {
         let place = &particles.place[particle as usize];
-        for (body, index) in bodies.iter().zip(0u32..) {
+        for (body, index) in bodies.iter().zip(0u32..).filter(|(body, _)| body.present) {
             if body.geometry(place.position, place.radius).is_some_and(|geometry| geometry.overlap > -gap) {
                 near.push(Near { particle, body: index });
             }

@@ -168,6 +168,11 @@ impl Particles {
         self.index.iter().map(|at| self.place[*at as usize].position)
     }
 
+    /// Radii by id [m].
+    pub fn radii(&self) -> impl Iterator<Item = f64> {
+        self.index.iter().map(|at| self.place[*at as usize].radius)
+    }
+
     /// Velocities by id [m/s].
     pub fn velocities(&self) -> impl Iterator<Item = Vector> {
         self.index.iter().map(|at| self.motion[*at as usize].velocity)

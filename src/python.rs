@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 mod observables;
 mod records;
+mod sintering;
 
 /// The native discrete element engine and the case schema.
 #[pymodule(name = "crossgrain")]
@@ -22,6 +23,8 @@ mod module {
     #[pymodule_export]
     use super::records::run;
     #[pymodule_export]
+    use super::sintering::{sintering_contact, sintering_stiffness};
+    #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "the name that Python gives to versions")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
 
@@ -33,10 +36,11 @@ mod module {
     }
 
     /// Reads, checks and expands a case file: JSON with the keys `case`, `variants` and `scenes`.
+    /// Overrides are `key=value`, with `start.` before keys of the case that it starts from; `variant` keeps one only.
     #[pyfunction]
-    #[pyo3(signature = (path, overrides = Vec::new()))]
-    fn load_case(path: PathBuf, overrides: Vec<String>) -> PyResult<String> {
-        cli::loaded_json(&path, &overrides).map_err(raise)
+    #[pyo3(signature = (path, overrides = Vec::new(), variant = None))]
+    fn load_case(path: PathBuf, overrides: Vec<String>, variant: Option<&str>) -> PyResult<String> {
+        cli::loaded_json(&path, &overrides, variant).map_err(raise)
     }
 
     /// Reads and checks a case file without asking whether this build can run it: JSON of the case.
@@ -52,13 +56,21 @@ mod module {
         case::json_schema().to_string()
     }
 
-    /// Runs a scene given as JSON and writes its record into the folder `out`.
+    /// Runs a scene given as JSON and writes its record into the folder `out`. States from which scenes start are taken from
+    /// the folder `states` and saved there; so are those of this run at the steps `save_at`.
     #[pyfunction]
-    #[pyo3(signature = (scene, out, threads = 1))]
-    fn run_scene(py: Python<'_>, scene: &str, out: PathBuf, threads: usize) -> PyResult<()> {
+    #[pyo3(signature = (scene, out, threads = 1, states = None, save_at = Vec::new()))]
+    fn run_scene(
+        py: Python<'_>,
+        scene: &str,
+        out: PathBuf,
+        threads: usize,
+        states: Option<PathBuf>,
+        save_at: Vec<u64>,
+    ) -> PyResult<()> {
         let scene = cli::parse_scene("scene", scene).map_err(raise)?;
-        py.detach(|| simulation::run(&scene, &simulation::Options::threads(threads), &|_| {})?.write(&out))
-            .map_err(raise)
+        let options = simulation::Options { states, save_at, ..simulation::Options::threads(threads) };
+        py.detach(|| simulation::run(&scene, &options, &|_| {})?.write(&out)).map_err(raise)
     }
 
     /// Runs the command line `crossgrain ARGUMENTS` and returns its exit code.

@@ -16,8 +16,10 @@ use serde_json::json;
 use crate::Vector;
 use crate::bodies::Body;
 use crate::case::scene::{Scene, Start};
+use crate::contacts::Living;
 use crate::domain::Domain;
 use crate::error::Error;
+use crate::laws::memory::Memory;
 use crate::observables::energy::Ledger;
 use crate::particles::Particles;
 use checkpoint::Checkpoint;
@@ -65,6 +67,16 @@ pub struct Recorder {
     steps: Vec<i64>,
     columns: Vec<Column>,
     contacts: Option<ContactColumns>,
+    /// What samples hold beyond what all have.
+    extras: Extras,
+}
+
+/// Columns that only some scenes have.
+#[derive(Clone, Copy)]
+struct Extras {
+    temperature: bool,
+    radius: bool,
+    shared: bool,
 }
 
 /// The contacts of all samples, one sample after the other.
@@ -76,12 +88,41 @@ struct ContactColumns {
     pair: Vec<u64>,
     /// Force on the first [N].
     force: Vec<f64>,
+    /// What contacts remember, where it is kept.
+    states: Option<ContactStates>,
+}
+
+/// What the contacts of all samples remember.
+#[derive(Default)]
+struct ContactStates {
+    /// Numbers of one contact.
+    width: usize,
+    /// Elastic normal force, positive where it repels [N].
+    elastic: Vec<f64>,
+    /// Largest force in the contact plane that friction allows [N].
+    limit: Vec<f64>,
+    /// Memory, as checkpoints have it.
+    memory: Vec<f64>,
+}
+
+/// Units of the columns of contacts.
+const CONTACTS: [(&str, &str); 3] = [("contact_start", "-"), ("contact_pair", "-"), ("contact_force", "N")];
+/// Units of the columns of what contacts remember; the law's own page says what the numbers of its memory are.
+const CONTACT_STATES: [(&str, &str); 3] = [("contact_elastic", "N"), ("contact_limit", "N"), ("contact_memory", "SI")];
+
+/// The numbers of a memory.
+#[must_use]
+pub fn numbers<H: Memory>(memory: &H) -> Vec<f64> {
+    let mut values = Vec::with_capacity(H::WIDTH);
+    memory.save(&mut values);
+    values
 }
 
 impl Recorder {
-    /// A recorder for `scene`, with no samples.
+    /// A recorder for `scene`, with no samples. `shared` are names and units of what its law shares, `memory` is the number
+    /// of values that a contact remembers.
     #[must_use]
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &Scene, shared: &[(&str, &str)], memory: usize) -> Self {
         let (particles, bodies) = (scene.particles.len(), scene.bodies.len());
         let column = |name, unit, shape: &[usize]| Column { name, unit, shape: shape.to_vec(), values: Vec::new() };
         let mut columns = vec![
@@ -92,6 +133,7 @@ impl Recorder {
             column("force", "N", &[particles, 3]),
             column("torque", "N m", &[particles, 3]),
             column("body_force", "N", &[bodies, 3]),
+            column("body_point", "m", &[bodies, 3]),
         ];
         let stored = ["energy_kinetic", "energy_elastic", "energy_gravity"];
         let received = ["energy_body_work", "energy_entered"];
@@ -99,26 +141,53 @@ impl Recorder {
             let energies = stored.into_iter().chain(DISSIPATED).chain(received);
             columns.extend(energies.map(|name| column(name, "J", &[])));
         }
+        let extras = Extras {
+            temperature: scene.temperature.is_some(),
+            radius: scene.temperature.is_some() && scene.materials.iter().any(|one| one.expansion.is_some()),
+            shared: !shared.is_empty(),
+        };
+        if extras.temperature {
+            columns.push(column("temperature", "K", &[]));
+        }
+        if extras.radius {
+            columns.push(column("radius", "m", &[particles]));
+        }
+        if extras.shared {
+            columns.push(column("law_state", "SI", &[shared.len()]));
+        }
         let mut header = header(scene);
         header["columns"]["step"] = json!("-");
-        let contacts = scene.contacts.then(|| ContactColumns { start: vec![0], ..ContactColumns::default() });
+        if extras.shared {
+            header["law_state"] = json!(shared);
+        }
+        let states = scene.contact_states.then(|| ContactStates { width: memory, ..ContactStates::default() });
+        let stated = states.is_some();
+        let contacts = scene.contacts.then(|| ContactColumns { start: vec![0], states, ..ContactColumns::default() });
         if contacts.is_some() {
-            for (name, unit) in [("contact_start", "-"), ("contact_pair", "-"), ("contact_force", "N")] {
+            for (name, unit) in CONTACTS.into_iter().chain(CONTACT_STATES.into_iter().filter(|_| stated)) {
                 header["columns"][name] = json!(unit);
             }
         }
         for column in &columns {
             header["columns"][column.name] = json!(column.unit);
         }
-        Self { header, started: Instant::now(), time_step: scene.time_step, steps: Vec::new(), columns, contacts }
+        Self { header, started: Instant::now(), time_step: scene.time_step, steps: Vec::new(), columns, contacts, extras }
     }
 
-    /// Adds a sample.
-    pub fn sample(&mut self, step: u64, particles: &Particles, domain: &Domain, bodies: &[Body], ledger: &Ledger) {
+    /// Adds a sample; `climate` is the temperature [K] and what the law shares.
+    pub fn sample(
+        &mut self,
+        step: u64,
+        particles: &Particles,
+        domain: &Domain,
+        bodies: &[Body],
+        ledger: &Ledger,
+        (temperature, shared): (f64, &[f64]),
+    ) {
         fn flat(vectors: impl Iterator<Item = Vector>) -> Vec<f64> {
             vectors.flat_map(|v| [v.x, v.y, v.z]).collect()
         }
-        let rows = [
+        let mut rows = vec![
             vec![step as f64 * self.time_step],
             flat(particles.unwrapped_positions(domain)),
             flat(particles.velocities()),
@@ -126,17 +195,32 @@ impl Recorder {
             flat(particles.loads().map(|load| load.force)),
             flat(particles.loads().map(|load| load.torque)),
             flat(bodies.iter().map(|body| body.force)),
-            vec![ledger.kinetic],
-            vec![ledger.elastic],
-            vec![ledger.gravity],
-            vec![ledger.viscous],
-            vec![ledger.frictional],
-            vec![ledger.rolling],
-            vec![ledger.plastic],
-            vec![ledger.carried],
-            vec![ledger.body_work],
-            vec![ledger.entered],
+            flat(bodies.iter().map(|body| body.point)),
         ];
+        if self.columns.iter().any(|column| column.name == "energy_kinetic") {
+            let energies = [
+                ledger.kinetic,
+                ledger.elastic,
+                ledger.gravity,
+                ledger.viscous,
+                ledger.frictional,
+                ledger.rolling,
+                ledger.plastic,
+                ledger.carried,
+                ledger.body_work,
+                ledger.entered,
+            ];
+            rows.extend(energies.map(|energy| vec![energy]));
+        }
+        if self.extras.temperature {
+            rows.push(vec![temperature]);
+        }
+        if self.extras.radius {
+            rows.push(particles.radii().collect());
+        }
+        if self.extras.shared {
+            rows.push(shared.to_vec());
+        }
         self.steps.push(i64::try_from(step).unwrap_or(i64::MAX));
         for (column, row) in self.columns.iter_mut().zip(rows) {
             column.values.extend(row);
@@ -149,12 +233,17 @@ impl Recorder {
         self.contacts.is_some()
     }
 
-    /// Adds the contacts of a sample: both sides, and the force on the first [N].
-    pub fn contacts(&mut self, found: Vec<([u32; 2], Vector)>) {
+    /// Adds the contacts of a sample.
+    pub fn contacts<H: Memory>(&mut self, found: &[Living<H>]) {
         let Some(columns) = &mut self.contacts else { return };
-        for (pair, force) in found {
+        for Living { pair, account, history } in found {
             columns.pair.extend(pair.map(u64::from));
-            columns.force.extend([force.x, force.y, force.z]);
+            columns.force.extend([account.force.x, account.force.y, account.force.z]);
+            if let Some(states) = &mut columns.states {
+                states.elastic.push(account.normal_force - account.damping_force);
+                states.limit.push(account.friction_limit);
+                history.save(&mut states.memory);
+            }
         }
         columns.start.push(columns.pair.len() as u64 / 2);
     }
@@ -165,6 +254,11 @@ impl Recorder {
             into.put_counts("record_contact_start", contacts.start.clone());
             into.put_counts("record_contact_pair", contacts.pair.clone());
             into.put("record_contact_force", contacts.force.clone());
+            if let Some(states) = &contacts.states {
+                into.put("record_contact_elastic", states.elastic.clone());
+                into.put("record_contact_limit", states.limit.clone());
+                into.put("record_contact_memory", states.memory.clone());
+            }
         }
         into.put_counts("record_step", self.steps.iter().map(|step| step.unsigned_abs()).collect());
         for column in &self.columns {
@@ -178,6 +272,11 @@ impl Recorder {
             contacts.start = from.get_counts("record_contact_start").to_vec();
             contacts.pair = from.get_counts("record_contact_pair").to_vec();
             contacts.force = from.get("record_contact_force").to_vec();
+            if let Some(states) = &mut contacts.states {
+                states.elastic = from.get("record_contact_elastic").to_vec();
+                states.limit = from.get("record_contact_limit").to_vec();
+                states.memory = from.get("record_contact_memory").to_vec();
+            }
         }
         let steps = from.get_counts("record_step").iter();
         self.steps = steps.map(|step| i64::try_from(*step).unwrap_or(i64::MAX)).collect();
@@ -206,6 +305,12 @@ impl Recorder {
             let pair = RecordColumn { name: "contact_pair", shape: vec![count, 2], values: signed(contacts.pair) };
             let values = Values::Real(contacts.force);
             columns.extend([start, pair, RecordColumn { name: "contact_force", shape: vec![count, 3], values }]);
+            if let Some(ContactStates { width, elastic, limit, memory }) = contacts.states {
+                let shapes = [vec![count], vec![count], vec![count, width]];
+                for (((name, _), shape), values) in CONTACT_STATES.into_iter().zip(shapes).zip([elastic, limit, memory]) {
+                    columns.push(RecordColumn { name, shape, values: Values::Real(values) });
+                }
+            }
         }
         (header, columns)
     }
@@ -238,6 +343,12 @@ impl Recorder {
         let index = |value: u64| u32::try_from(value).unwrap_or(u32::MAX);
         let pair = contacts.pair.as_chunks().0.iter().map(|[i, j]| [index(*i), index(*j)]).collect();
         Some((start, pair, contacts.force.as_chunks().0))
+    }
+
+    /// Number of samples up to a step.
+    #[must_use]
+    pub fn samples_until(&self, step: u64) -> usize {
+        self.steps.iter().filter(|sampled| sampled.unsigned_abs() <= step).count()
     }
 
     /// All values of a column in one row.

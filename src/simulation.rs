@@ -2,10 +2,12 @@
 //! over the contacts, gather.
 
 mod batch;
+mod climate;
 mod drive;
 mod motion;
 pub mod run;
 mod state;
+mod states;
 mod sweep;
 
 use crate::Vector;
@@ -15,12 +17,13 @@ use crate::contacts::{self, Contacts};
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::laws::model::ContactModel;
-use crate::material::PairProperties;
+use crate::material::{Expansion, PairProperties};
 use crate::neighbors::Neighbors;
 use crate::observables::energy::Ledger;
 use crate::particles::Particles;
 use crate::path::Path;
 
+use climate::Climate;
 use drive::Driver;
 pub use run::{Checkpoints, Options, run};
 
@@ -56,6 +59,12 @@ pub struct Setup {
     pub start: Start,
     /// Whether an energy ledger is kept; trajectories do not depend on it.
     pub ledger: bool,
+    /// Whether contacts keep accounts of what they do at the steps at which a run stops to be looked at.
+    pub accounts: bool,
+    /// Temperature of the particles, at which their radii stand [K]; none where it plays no part.
+    pub temperature: Option<f64>,
+    /// Thermal expansion of each material.
+    pub expansions: Vec<Option<Expansion>>,
     /// Skin of the neighbour list [m], a quarter of the smallest radius if not given.
     pub skin: Option<f64>,
 }
@@ -77,8 +86,10 @@ impl Setup {
             plane_radius_factor: scene.mirror.plane_radius_factor,
             cylinder_curvature: scene.mirror.cylinder_curvature,
             start: scene.mirror.start,
-            // Accounts of contacts hold their forces.
-            ledger: scene.energies || scene.contacts,
+            ledger: scene.energies,
+            accounts: scene.energies || scene.contacts,
+            temperature: scene.temperature,
+            expansions: scene.materials.iter().map(|material| material.expansion).collect(),
             skin: None,
         }
     }
@@ -127,6 +138,10 @@ pub struct Simulation<M: ContactModel> {
     time_step: f64,
     start: Start,
     ledger_kept: bool,
+    accounts_kept: bool,
+    /// Step at which the run next stops to be looked at.
+    stop: u64,
+    climate: Climate,
     plane_radius_factor: Option<f64>,
     cylinder_curvature: Option<f64>,
     materials: usize,
@@ -168,6 +183,9 @@ impl<M: ContactModel> Simulation<M> {
             time_step: setup.time_step,
             start: setup.start,
             ledger_kept: setup.ledger,
+            accounts_kept: setup.accounts,
+            stop: 0,
+            climate: Climate::new(setup),
             plane_radius_factor: setup.plane_radius_factor,
             cylinder_curvature: setup.cylinder_curvature,
             materials: setup.materials,
@@ -208,18 +226,20 @@ impl<M: ContactModel> Simulation<M> {
     /// # Errors
     /// A periodic axis is shorter than two cutoffs.
     pub fn advance_to(&mut self, step: u64) -> Result<(), Error> {
+        self.stop = step;
         if self.step < step {
             self.depart();
             self.drive(self.step + 1);
         }
         while self.step < step {
             for body in &mut self.bodies {
-                body.drift(self.time_step);
+                body.drift(self.time_step, self.step + 1);
             }
             if self.stale || self.neighbors.body_displacement(&self.bodies) >= self.neighbors.allowance() {
                 self.rebuild()?;
             }
             self.step += 1;
+            self.warm();
             let then = if self.step < step { self.arrival_and_departure() } else { self.arrival() };
             self.forces(self.time_step, then);
             self.account_drives();
@@ -247,6 +267,7 @@ impl<M: ContactModel> Simulation<M> {
         }
         let order = self.neighbors.order(&mut self.particles, &self.domain);
         self.list(Some(&order));
+        self.note_built();
         self.rebuilds += 1;
         self.stale = false;
         Ok(())
@@ -261,7 +282,7 @@ impl<M: ContactModel> Simulation<M> {
             pairs.retain(|[one, other]| stated(material(*one), material(*other)));
             near.retain(|near| stated(material(near.particle), self.bodies[near.body as usize].material));
         }
-        let mut contacts = Contacts::new(&self.particles, &self.domain, &pairs, &near, self.ledger_kept);
+        let mut contacts = Contacts::new(&self.particles, &self.domain, &pairs, &near, self.accounts_kept);
         if let Some(order) = order
             && !self.contacts.blocks.is_empty()
         {

@@ -120,6 +120,7 @@ impl Bed {
     #[must_use]
     pub fn pair(&self, friction: f64) -> PairProperties {
         let solid = Material {
+            expansion: None,
             name: "spheres".to_owned(),
             rigid: false,
             young: Some(self.young),

@@ -8,7 +8,6 @@ use super::quantity::{
     Acceleration, AngularSpeed, Dashpot, Duration, Force, Frequency, Length, Mass, Number, Pressure, Speed, Stiffness,
     Temperature,
 };
-use super::schema::Output;
 use super::source::ParticleSource;
 
 /// A wall.
@@ -137,7 +136,15 @@ pub struct Stage {
     #[serde(default)]
     pub actions: Vec<Action>,
     /// Sampling during the stage; that of the case if absent.
-    pub output: Option<Output>,
+    pub output: Option<StageOutput>,
+}
+
+/// Sampling of a stage, which ends with a sample.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StageOutput {
+    /// Steps between samples.
+    pub every: u64,
 }
 
 /// End of a stage.

@@ -10,6 +10,7 @@ mod particles;
 mod random;
 mod specification;
 mod stages;
+pub mod start;
 mod supported;
 mod valid;
 
@@ -22,9 +23,9 @@ pub use stages::{SceneAction, SceneStage};
 use super::measure::Observable;
 use super::model::{Damping, ForceCut, MomentLaw, NormalLaw, PairValues, TangentialLaw};
 use super::quantity::{Kind, Number, Quantity};
-use super::schema::{Boundary, Case, Level};
+use super::schema::{Boundary, Case, Geometry, Level};
 use crate::error::Problem;
-use crate::material::{self, Material, PairProperties};
+use crate::material::{self, Expansion, Material, PairProperties};
 
 /// The version of the scene format.
 pub const SCHEMA: u32 = 1;
@@ -57,10 +58,20 @@ pub struct Scene {
     pub stages: Vec<SceneStage>,
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub contacts: bool,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub contact_states: bool,
     #[serde(default = "kept", skip_serializing_if = "is_kept")]
     pub energies: bool,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub observables: Vec<Observable>,
+    /// Height of disks [m]; spheres have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub disk_height: Option<f64>,
+    /// Temperature at which the radii of the particles stand [K], where the case states one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<SceneStart>,
 }
 
 /// The box of a scene [m].
@@ -137,6 +148,26 @@ pub enum SceneShape {
 pub enum SceneMotion {
     Fixed,
     Prescribed { velocity: [f64; 3] },
+    Servo { direction: [f64; 3], load: SceneLoad, mass: f64, damping: f64 },
+    Oscillating { direction: [f64; 3], amplitude: f64, frequency: f64 },
+}
+
+/// External load on a servo wall: a force [N], or a stress [N/m] on the length between two parallel planes.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub enum SceneLoad {
+    Force { value: f64 },
+    LineStress { value: f64, between: [usize; 2] },
+}
+
+/// The state of another scene after `step` steps.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "docs/formats.md describes every field")]
+pub struct SceneStart {
+    pub scene: Box<Scene>,
+    pub step: u64,
 }
 
 /// A particle at the start.
@@ -169,6 +200,27 @@ impl Scene {
         parts.into_iter().flatten().collect::<Vec<_>>().join("/")
     }
 
+    /// The next step after `step` at which a sample is taken: multiples of the interval of the stage, and its end.
+    #[must_use]
+    pub fn next_sample(&self, step: u64) -> u64 {
+        let mut first = 0;
+        for stage in &self.stages {
+            let end = first + stage.steps;
+            if step < end {
+                let every = stage.output_every.unwrap_or(self.output_every);
+                return (first + ((step - first) / every + 1) * every).min(end);
+            }
+            first = end;
+        }
+        (step / self.output_every + 1) * self.output_every
+    }
+
+    /// The step of the last sample.
+    #[must_use]
+    pub fn last_sample(&self) -> u64 {
+        if self.stages.is_empty() { self.steps / self.output_every * self.output_every } else { self.steps }
+    }
+
     /// The pair of two materials, if it is stated.
     #[must_use]
     pub fn pair(&self, first: usize, second: usize) -> Option<&PairProperties> {
@@ -180,11 +232,18 @@ fn si<K: Kind, const N: usize>(values: &[Quantity<K>; N]) -> [f64; N] {
     values.map(Quantity::si)
 }
 
-/// Resolves one variant, and one seed of its ensemble, into a scene whose time step is divided by 2^`refinement`.
+/// Resolves one variant, and one seed of its ensemble, into a scene whose time step is divided by 2^`refinement`; `start` is
+/// the state of the case that it starts from.
 ///
 /// # Errors
 /// The case asks for what this build does not compute, or its start state or time step is not allowed.
-pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -> Result<Scene, Problem> {
+pub fn prepare(
+    case: &Case,
+    variant: &str,
+    seed: Option<u64>,
+    refinement: u32,
+    start: Option<SceneStart>,
+) -> Result<Scene, Problem> {
     supported::supported(case)?;
     let mut scene = Scene {
         schema: SCHEMA,
@@ -211,22 +270,39 @@ pub fn prepare(case: &Case, variant: &str, seed: Option<u64>, refinement: u32) -
         drives: Vec::new(),
         stages: Vec::new(),
         contacts: case.output.contacts,
+        contact_states: case.output.contact_states,
         energies: case.output.energies,
         observables: case.observables.clone(),
+        disk_height: match &case.geometry {
+            Geometry::Spheres {} => None,
+            Geometry::Disks { height } => Some(height.si()),
+        },
+        temperature: case.temperature.map(Quantity::si),
+        start: None,
     };
     scene.pairs = pairs(case, &scene.materials);
     scene.bodies = bodies::bodies(case);
-    let origins = particles::place(case, &mut scene)?;
-    particles::weighable(case, &scene, &origins)?;
+    let origins = match &start {
+        Some(start) => start::inherit(&mut scene, start)?,
+        None => {
+            let origins = particles::place(case, &mut scene)?;
+            particles::weighable(case, &scene, &origins)?;
+            origins
+        }
+    };
     valid::room(case, &scene)?;
     drop_unused_materials(&mut scene);
     let laws = scene.model.specification(&scene.mirror)?;
-    approach::overlaps(case, &scene, &origins)?;
+    if start.is_none() {
+        approach::overlaps(case, &scene, &origins)?;
+    }
     let stages = duration::steps(case, &mut scene, &laws.normal)?;
     scene.stages = stages::resolve(case, &scene, &stages);
     duration::travel(case, &scene, &origins)?;
     scene.drives = drives::resolve(case, &scene, &stages)?;
     drives::check(case, &scene)?;
+    scene.start = start;
+    valid::heat(case, &scene, &laws)?;
     Ok(scene)
 }
 
@@ -237,7 +313,15 @@ fn solid(material: &super::schema::Material) -> Material {
         young: material.young.map(Quantity::si),
         poisson: material.poisson.map(Number::get),
         density: material.density.map(Quantity::si),
+        expansion: expansion(material),
     }
+}
+
+fn expansion(material: &super::schema::Material) -> Option<Expansion> {
+    material.thermal.as_ref().map(|thermal| Expansion {
+        coefficient: thermal.expansion.si(),
+        reference_temperature: thermal.reference_temperature.si(),
+    })
 }
 
 /// A scene states the materials that it uses and no others: a sweep over materials leaves one at each point.
@@ -282,9 +366,11 @@ fn mixed(materials: &[Material], between: [usize; 2], values: &PairValues) -> Pa
         Some(Damping::None {}) | None => (0.0, None),
     };
     let shear = material::effective_shear(first, second);
+    let young = material::effective_young(first, second);
     PairProperties {
         between,
-        effective_young: material::effective_young(first, second),
+        // Laws that state their stiffness ask for no moduli.
+        effective_young: if young.is_finite() { young } else { 0.0 },
         effective_shear: shear.is_finite().then_some(shear),
         damping_ratio,
         restitution,
@@ -292,6 +378,7 @@ fn mixed(materials: &[Material], between: [usize; 2], values: &PairValues) -> Pa
         rolling_friction: values.rolling_friction.map(Number::get),
         twisting_friction: values.twisting_friction.map(Number::get),
         work_of_adhesion: values.work_of_adhesion.map(Quantity::si),
+        cohesive: values.cohesive,
     }
 }
 

@@ -207,9 +207,8 @@ pub struct Pair {
 pub struct StartFrom {
     /// Name of the case.
     pub case: String,
-    /// Name of its variant, empty if it has none.
-    #[serde(default)]
-    pub variant: String,
+    /// Name of its variant; absent, on each of its axes the point that this case has on its axis of the same name.
+    pub variant: Option<String>,
     /// Name of the stage.
     pub stage: String,
     /// Time after the beginning of that stage [s]; its end if absent.
@@ -401,6 +400,9 @@ pub struct Output {
     /// Whether samples hold the force of every contact.
     #[serde(default)]
     pub contacts: bool,
+    /// Whether samples also hold what contacts remember, and the parts of their forces; needs `contacts`.
+    #[serde(default)]
+    pub contact_states: bool,
     /// Whether samples hold the energy ledger, whose account of every contact takes as long as the contacts themselves.
     #[serde(default = "kept")]
     pub energies: bool,
@@ -412,6 +414,6 @@ const fn kept() -> bool {
 
 impl Default for Output {
     fn default() -> Self {
-        Self { every: 1, contacts: false, energies: true }
+        Self { every: 1, contacts: false, contact_states: false, energies: true }
     }
 }

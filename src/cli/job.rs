@@ -65,7 +65,7 @@ impl Job {
         for scene in &self.scenes {
             let place = self.place(folder, scene);
             if !place.join("summary.json").is_file() {
-                self.run_scene(scene, &place, &progress, done)?;
+                self.run_scene(scene, folder.join("states"), &place, &progress, done)?;
             }
             done += scene.steps;
             progress.set_position(done);
@@ -78,13 +78,13 @@ impl Job {
         if self.scenes.len() == 1 { folder.to_owned() } else { folder.join(scene.member()) }
     }
 
-    fn run_scene(&self, scene: &Scene, folder: &Path, progress: &ProgressBar, done: u64) -> Result<(), Error> {
+    fn run_scene(&self, scene: &Scene, states: PathBuf, folder: &Path, progress: &ProgressBar, done: u64) -> Result<(), Error> {
         let failed = |reason| Error::Write { file: folder.to_owned(), reason };
         fs::create_dir_all(folder).map_err(failed)?;
         let file = folder.join("checkpoint.npz");
         let interval = Duration::try_from_secs_f64(self.checkpoint_seconds).ok();
         let checkpoints = Some(Checkpoints { file: file.clone(), steps: self.checkpoint_steps, interval });
-        let options = Options { threads: self.threads, checkpoints };
+        let options = Options { threads: self.threads, checkpoints, states: Some(states), save_at: Vec::new() };
         let recorder = simulation::run(scene, &options, &|step| {
             if (step / scene.output_every).is_multiple_of(1024) {
                 progress.set_position(done + step);

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use serde_json::json;
 
-use crate::bodies::Body;
 use crate::case::scene::Scene;
 use crate::error::Error;
 use crate::observables::measure::{Columns, ContactColumns, Named, series};
@@ -57,34 +56,10 @@ pub fn summary(scene: &Scene, recorder: &Recorder) -> Result<serde_json::Value, 
     Ok(found)
 }
 
-/// Points of the bodies at the sampled times [m]: prescribed velocities over the stages so far.
-fn body_points(scene: &Scene, time: &[f64]) -> Vec<[f64; 3]> {
-    let ends = scene.stages.iter().scan(0.0, |end, stage| {
-        let begin = *end;
-        *end += stage.steps as f64 * scene.time_step;
-        Some((begin, *end))
-    });
-    let mut spans: Vec<(f64, f64)> = ends.collect();
-    if spans.is_empty() {
-        spans.push((0.0, f64::INFINITY));
-    }
-    let moving: Vec<Vec<Body>> =
-        (0..spans.len()).map(|stage| scene.at_stage(stage).bodies.iter().map(Body::new).collect()).collect();
-    let place = |time: f64, body: usize| {
-        let mut point = moving[0][body].point;
-        for ((begin, end), bodies) in spans.iter().zip(&moving) {
-            point += bodies[body].velocity * (time.clamp(*begin, *end) - begin);
-        }
-        point.into()
-    };
-    time.iter().flat_map(|time| (0..scene.bodies.len()).map(|body| place(*time, body)).collect::<Vec<_>>()).collect()
-}
-
 /// The observables of the case: the mean over the last share of the stage, less that of the observable it names.
 fn measured(scene: &Scene, recorder: &Recorder) -> Result<BTreeMap<String, serde_json::Value>, Error> {
     let rows = |name: &str| Some(recorder.values(name).as_chunks().0);
     let contacts = recorder.contact_columns();
-    let points = body_points(scene, recorder.values("time"));
     let columns = Columns {
         time: recorder.values("time"),
         position: rows("position").unwrap_or_default(),
@@ -92,17 +67,19 @@ fn measured(scene: &Scene, recorder: &Recorder) -> Result<BTreeMap<String, serde
         angular_velocity: rows("angular_velocity"),
         force: rows("force"),
         body_force: rows("body_force"),
-        body_point: Some(&points),
+        body_point: rows("body_point"),
+        radius: Some(recorder.values("radius")).filter(|radius| !radius.is_empty()),
         contacts: contacts.as_ref().map(|(start, pair, force)| ContactColumns { start, pair, force }),
         ..Columns::default()
     };
     let mut means: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     let mut found = BTreeMap::new();
-    let mut first = 0;
+    let (mut first, mut end) = (0, 0);
     for (index, stage) in scene.stages.iter().enumerate() {
-        let last = first + usize::try_from(stage.steps / scene.output_every).unwrap_or(usize::MAX);
         // The sample at which a stage begins belongs to the stage before; the start of the run to the first.
-        let samples = if index == 0 { 0..last + 1 } else { first + 1..last + 1 };
+        end += stage.steps;
+        let last = recorder.samples_until(end);
+        let samples = first..last;
         first = last;
         let asked: Vec<_> = scene.observables.iter().filter(|one| one.stage == stage.name).collect();
         let named: Vec<Named> = asked.iter().map(|one| Named::from(*one)).collect();

@@ -28,10 +28,10 @@ pub enum AnyNormal {
 }
 
 impl AnyNormal {
-    /// The law of a specification.
+    /// The law of a specification. None for a law that is compiled by itself.
     #[must_use]
-    pub fn new(normal: &Normal) -> Self {
-        match *normal {
+    pub fn new(normal: &Normal) -> Option<Self> {
+        Some(match *normal {
             Normal::Hertz { force_cut } => Self::Hertz(Hertz { force_cut }),
             Normal::Dmt { force_cut, dashpot_limit } => Self::Dmt(Dmt { dashpot_limit, ..Dmt::new(force_cut) }),
             Normal::Sjkr { force_cut, energy_density } => {
@@ -48,7 +48,8 @@ impl AnyNormal {
                 let law = LudingHysteretic { loading, unloading, cohesive, plasticity_depth, dashpot, force_cut, rule };
                 Self::LudingHysteretic(law)
             }
-        }
+            Normal::LudingSintering { .. } => return None,
+        })
     }
 }
 
@@ -79,16 +80,17 @@ pub enum AnyTangential {
 }
 
 impl AnyTangential {
-    /// The law of a specification.
+    /// The law of a specification. None for a law that is compiled by itself.
     #[must_use]
-    pub fn new(tangential: &Tangential) -> Self {
-        match *tangential {
+    pub fn new(tangential: &Tangential) -> Option<Self> {
+        Some(match *tangential {
             Tangential::Frictionless => Self::Frictionless,
             Tangential::Mindlin { dashpot, options } => Self::Mindlin(Mindlin { choices: options, dashpot }),
             Tangential::LinearHistory { stiffness_ratio, dashpot, options } => {
                 Self::LinearHistory(LinearHistory { stiffness_ratio, dashpot, choices: options })
             }
-        }
+            Tangential::LudingSintering { .. } => return None,
+        })
     }
 }
 

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::geometry::{self, ContactGeometry, Surface};
 
 use super::model::{Action, ContactModel};
-use super::{Contact, Losses, PairLaw};
+use super::{Contact, Losses, PairLaw, Surroundings};
 
 /// Two bodies that touch: i is a sphere, j a sphere or a plane through its position with the normal +x.
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +78,8 @@ pub struct Single<M: ContactModel> {
     couple: Couple,
     shared: M::Shared,
     history: M::History,
-    time: f64,
+    /// What acts on the contact.
+    pub surroundings: Surroundings,
     /// Losses since the start, but for the dashpot along the normal.
     pub losses: Losses,
 }
@@ -129,7 +130,7 @@ impl<M: ContactModel> Single<M> {
     #[must_use]
     pub fn new(model: M, couple: Couple) -> Self {
         let (shared, history) = (M::Shared::default(), M::History::default());
-        Self { model, couple, shared, history, time: 0.0, losses: Losses::default() }
+        Self { model, couple, shared, history, surroundings: Surroundings::default(), losses: Losses::default() }
     }
 
     /// Evaluates the contact at the end of a step `dt` [s]. None where the centres coincide.
@@ -144,8 +145,7 @@ impl<M: ContactModel> Single<M> {
             angular_j: j.angular_velocity,
             masses: self.couple.masses,
         };
-        self.time += dt;
-        self.model.advance(&mut self.shared, self.time, dt);
+        self.model.advance(&mut self.shared, &self.surroundings, dt);
         let action = if self.model.alive(geometry.overlap, &self.history) {
             Some(self.model.evaluate(&contact, &self.shared, dt, &mut self.history))
         } else {

@@ -54,6 +54,7 @@ impl Code {
                 Self::Yade => *rule == Rule::LudingPm,
                 Self::Lammps => false,
             },
+            Normal::LudingSintering { .. } => false,
         };
         if has { Ok(()) } else { Err(self.normals()) }
     }

@@ -3,7 +3,9 @@
 use crate::Vector;
 
 use super::memory::Memory;
-use super::{Contact, Losses, MomentLaw, MomentState, NormalLaw, NormalState, TangentialLaw, TangentialState};
+use super::{
+    Contact, Losses, MomentLaw, MomentState, NormalLaw, NormalState, Surroundings, TangentialLaw, TangentialState,
+};
 
 /// Force and moments of one contact.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +18,8 @@ pub struct Action {
     pub torque_j: Vector,
     /// The normal state behind the force.
     pub normal: NormalState,
+    /// Largest force in the contact plane that friction allows [N].
+    pub friction_limit: f64,
     /// Energy stored in the contact plane and in moments [J].
     pub springs: f64,
     /// Losses of the step, but for the dashpot along the normal.
@@ -31,8 +35,11 @@ pub trait ContactModel: Copy + Send + Sync {
     /// Whether contacts are evaluated several at a time, see [`NormalLaw::BATCHED`].
     const BATCHED: bool;
 
-    /// Advances the shared state by `dt` [s] to `time` [s].
-    fn advance(&self, shared: &mut Self::Shared, time: f64, dt: f64);
+    /// See [`NormalLaw::SHARED`].
+    const SHARED: &'static [(&'static str, &'static str)];
+
+    /// Advances the shared state by `dt` [s] to the present surroundings.
+    fn advance(&self, shared: &mut Self::Shared, surroundings: &Surroundings, dt: f64);
 
     /// Whether a contact lives at `overlap` [m].
     fn alive(&self, overlap: f64, history: &Self::History) -> bool;
@@ -60,8 +67,10 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
     type Shared = N::Shared;
     const BATCHED: bool = N::BATCHED && T::BATCHED && M::BATCHED;
 
-    fn advance(&self, shared: &mut Self::Shared, time: f64, dt: f64) {
-        self.normal.advance(shared, time, dt);
+    const SHARED: &'static [(&'static str, &'static str)] = N::SHARED;
+
+    fn advance(&self, shared: &mut Self::Shared, surroundings: &Surroundings, dt: f64) {
+        self.normal.advance(shared, surroundings, dt);
     }
 
     #[inline(always)]
@@ -78,7 +87,8 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
         let normal = self.normal.evaluate(&contact.pair, &contact.approach(), shared, &mut history.0);
         let tangential = self.tangential.evaluate(contact, &normal, dt, &mut history.1);
         let moments = self.moments.evaluate(contact, &normal, &tangential, dt, &mut history.2);
-        let normal = self.normal.finish(normal, tangential.sliding, &mut history.0);
+        let overlap = contact.geometry.overlap;
+        let normal = self.normal.finish(normal, tangential.sliding, overlap, shared, &mut history.0);
         let direction = contact.geometry.normal;
         let [arm_i, arm_j] = tangential.arms;
         // The contact lies at -arm_i n from i and at +arm_j n from j; j feels the opposite force.
@@ -88,6 +98,7 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
             torque_i: moments.moment - twist * arm_i,
             torque_j: -moments.moment - twist * arm_j,
             normal,
+            friction_limit: tangential.limit,
             springs: tangential.energy + moments.energy,
             losses: tangential.losses + moments.losses + Losses { plastic: normal.plastic, ..Losses::default() },
         }
@@ -107,6 +118,7 @@ impl TangentialLaw for Frictionless {
         TangentialState {
             force: Vector::zeros(),
             sliding: false,
+            limit: 0.0,
             arms: [0.0; 2],
             stiffness: 0.0,
             dashpot: 0.0,

@@ -6,5 +6,6 @@ pub mod hertz;
 pub mod hysteretic_branches;
 pub mod linear_spring_dashpot;
 pub mod luding_hysteretic;
+pub mod luding_sintering;
 pub mod sjkr;
 pub mod sjkr2;

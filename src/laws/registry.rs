@@ -19,8 +19,10 @@ use super::model::{Composed, ContactModel, Free, Frictionless};
 use super::moments::any::Moments;
 use super::normal::cohesive::DashpotLimit;
 use super::normal::hertz::Hertz;
-use super::normal::hysteretic_branches::Rule;
+use super::normal::hysteretic_branches::{Branches, Rule};
 use super::normal::linear_spring_dashpot::LinearSpringDashpot;
+use super::normal::luding_sintering::{Cooling, LudingSintering, Sliding};
+use super::tangential::luding_sintering::LudingSintering as SinteringFriction;
 use super::tangential::mindlin::Mindlin;
 use super::tangential::options::{Dashpot, Options};
 
@@ -35,6 +37,7 @@ pub enum Normal {
     Sjkr2 { force_cut: bool, energy_density: f64 },
     LinearSpringDashpot { stiffness: f64, dashpot: f64, force_cut: bool },
     LudingHysteretic { k1: f64, kp: f64, kc: f64, plasticity_depth: f64, dashpot: f64, force_cut: bool, rule: Rule },
+    LudingSintering { k1: f64, k2: f64, kc: f64, fluid_overlap: f64, dashpot: f64, melting_temperature: f64, melting_range: f64, relaxation_time: f64, cooling: Cooling, sliding: Sliding },
 }
 
 /// A tangential law.
@@ -45,6 +48,7 @@ pub enum Tangential {
     Frictionless,
     Mindlin { dashpot: Dashpot, options: Options },
     LinearHistory { stiffness_ratio: f64, dashpot: Dashpot, options: Options },
+    LudingSintering { stiffness_ratio: f64, dashpot: f64, softens: bool },
 }
 
 /// A composed model.
@@ -67,7 +71,9 @@ impl Normal {
             Self::Hertz { .. } | Self::Dmt { .. } | Self::Sjkr { .. } | Self::Sjkr2 { .. } => {
                 Hertz::elastic_impact(pair, speed).duration
             }
-            Self::LinearSpringDashpot { stiffness, .. } | Self::LudingHysteretic { k1: stiffness, .. } => {
+            Self::LinearSpringDashpot { stiffness, .. }
+            | Self::LudingHysteretic { k1: stiffness, .. }
+            | Self::LudingSintering { k1: stiffness, .. } => {
                 LinearSpringDashpot::half_period(stiffness, pair.effective_mass)
             }
         }
@@ -87,23 +93,31 @@ pub trait Visitor {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, clippy::struct_excessive_bools, reason = "the names of the values of a pair")]
 pub struct Asked {
+    pub effective_young: bool,
     pub effective_shear: bool,
     pub friction: bool,
     pub rolling_friction: bool,
     pub twisting_friction: bool,
     pub work_of_adhesion: bool,
+    pub cohesive: bool,
 }
 
 impl Specification {
     /// What the laws ask of each pair.
     #[must_use]
     pub fn asks(&self) -> Asked {
+        let stiff = matches!(
+            self.normal,
+            Normal::LinearSpringDashpot { .. } | Normal::LudingHysteretic { .. } | Normal::LudingSintering { .. }
+        );
         Asked {
+            effective_young: !stiff,
             effective_shear: matches!(self.tangential, Tangential::Mindlin { .. }),
             friction: self.tangential != Tangential::Frictionless,
             rolling_friction: self.moments.rolling.capped(),
             twisting_friction: self.moments.twisting.is_some_and(|law| law.capped()),
             work_of_adhesion: matches!(self.normal, Normal::Dmt { .. }),
+            cohesive: matches!(self.normal, Normal::LudingSintering { .. }),
         }
     }
 
@@ -123,18 +137,34 @@ impl Specification {
             {
                 visitor.visit(Composed { normal: Hertz { force_cut }, tangential: Mindlin::plain(), moments: Free })
             }
-            _ => visitor.visit(Composed {
-                normal: AnyNormal::new(&normal),
-                tangential: AnyTangential::new(&tangential),
-                moments,
-            }),
+            _ => {
+                if let Some(normal) = normal.sintering() {
+                    return Ok(match tangential.sintering() {
+                        Some(tangential) => visitor.visit(Composed { normal, tangential, moments: Free }),
+                        None => visitor.visit(Composed { normal, tangential: Frictionless, moments: Free }),
+                    });
+                }
+                let any = AnyNormal::new(&normal).zip(AnyTangential::new(&tangential));
+                let Some((normal, tangential)) = any else { return Err(alone(&self.tangential)) };
+                visitor.visit(Composed { normal, tangential, moments })
+            }
         })
     }
 
     /// Refuses laws that do not stand together.
     fn partners(&self) -> Result<(), Problem> {
         let linear = matches!(self.normal, Normal::LinearSpringDashpot { .. } | Normal::LudingHysteretic { .. });
+        if matches!(self.normal, Normal::LudingSintering { .. }) {
+            return match self.tangential {
+                Tangential::Frictionless | Tangential::LudingSintering { .. } if self.moments == Moments::NONE => Ok(()),
+                Tangential::Frictionless | Tangential::LudingSintering { .. } => {
+                    Err(Problem::new("model.moments", "a moment law", "none beside the law luding_sintering"))
+                }
+                other => Err(unknown(other.name(), "frictionless and luding_sintering")),
+            };
+        }
         match self.tangential {
+            Tangential::LudingSintering { .. } => Err(alone(&self.tangential)),
             Tangential::LinearHistory { .. } if !linear => Err(unknown("linear_history", "frictionless and mindlin")),
             Tangential::Mindlin { .. } if linear => Err(unknown("mindlin", "frictionless and linear_history")),
             Tangential::Frictionless if self.moments != Moments::NONE => {
@@ -166,9 +196,25 @@ impl Specification {
                 within("model.normal.plasticity_depth", plasticity_depth, plasticity_depth > 0.0, "above 0")?;
                 within("model.normal.dashpot", dashpot, dashpot >= 0.0, "at least 0 kg/s")?;
             }
+            Normal::LudingSintering { k1, k2, kc, fluid_overlap, dashpot, melting_temperature, melting_range, relaxation_time, .. } => {
+                within("model.normal.k1", k1, k1 > 0.0, "above 0 N/m")?;
+                within("model.normal.k2", k2, k2 > k1, "above k1")?;
+                within("model.normal.kc", kc, kc >= 0.0, "at least 0 N/m")?;
+                within("model.normal.fluid_overlap", fluid_overlap, fluid_overlap > 0.0, "above 0 m")?;
+                within("model.normal.dashpot", dashpot, dashpot >= 0.0, "at least 0 kg/s")?;
+                let melts = melting_temperature > 0.0;
+                within("model.normal.melting_temperature", melting_temperature, melts, "above 0 K")?;
+                within("model.normal.melting_range", melting_range, melting_range > 0.0, "above 0 K")?;
+                within("model.normal.relaxation_time", relaxation_time, relaxation_time > 0.0, "above 0 s")?;
+            }
         }
-        if let Tangential::LinearHistory { stiffness_ratio, .. } = self.tangential {
+        if let Tangential::LinearHistory { stiffness_ratio, .. } | Tangential::LudingSintering { stiffness_ratio, .. } =
+            self.tangential
+        {
             within("model.tangential.stiffness_ratio", stiffness_ratio, stiffness_ratio > 0.0, "above 0")?;
+        }
+        if let Tangential::LudingSintering { dashpot, .. } = self.tangential {
+            within("model.tangential.dashpot", dashpot, dashpot >= 0.0, "at least 0 kg/s")?;
         }
         if let Tangential::Mindlin { dashpot, .. } | Tangential::LinearHistory { dashpot, .. } = self.tangential {
             let (Dashpot::NormalShare { ratio: value } | Dashpot::Constant { value }) = dashpot else {
@@ -183,6 +229,61 @@ impl Specification {
 /// A value that must hold.
 pub(super) fn within(key: &str, value: f64, holds: bool, allowed: &str) -> Result<(), Problem> {
     if holds && value.is_finite() { Ok(()) } else { Err(Problem::new(key, value, allowed)) }
+}
+
+impl Normal {
+    /// The law of long-time sintering, if it is that.
+    #[must_use]
+    pub fn sintering(&self) -> Option<LudingSintering> {
+        let Self::LudingSintering {
+            k1,
+            k2,
+            kc,
+            fluid_overlap,
+            dashpot,
+            melting_temperature,
+            melting_range,
+            relaxation_time,
+            cooling,
+            sliding,
+        } = *self
+        else {
+            return None;
+        };
+        let limit = k2 / (k2 - k1) * fluid_overlap;
+        let branches = Branches { loading: k1, unloading: k2, cohesive: kc, limit };
+        Some(LudingSintering {
+            branches,
+            fluid_overlap,
+            dashpot,
+            melting_temperature,
+            melting_range,
+            relaxation_time,
+            cooling,
+            sliding,
+        })
+    }
+}
+
+impl Tangential {
+    fn sintering(&self) -> Option<SinteringFriction> {
+        let Self::LudingSintering { stiffness_ratio, dashpot, softens } = *self else { return None };
+        Some(SinteringFriction { stiffness_ratio, dashpot, softens })
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Frictionless => "frictionless",
+            Self::Mindlin { .. } => "mindlin",
+            Self::LinearHistory { .. } => "linear_history",
+            Self::LudingSintering { .. } => "luding_sintering",
+        }
+    }
+}
+
+/// A law of sintering beside one that is not.
+fn alone(tangential: &Tangential) -> Problem {
+    unknown(tangential.name(), "frictionless, mindlin and linear_history, whichever fits it")
 }
 
 fn unknown(law: &str, known: &str) -> Problem {

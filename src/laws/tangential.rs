@@ -2,6 +2,7 @@
 //! differ in stiffness and damping; [`Options`] holds everything that codes do differently.
 
 pub mod linear_history;
+pub mod luding_sintering;
 pub mod mindlin;
 pub mod options;
 
@@ -48,7 +49,7 @@ fn spring(
         Friction::PullOffAdded => normal.pull_off + normal.force.abs(),
         Friction::TwicePullOff => (normal.elastic + 2.0 * normal.pull_off).abs(),
     };
-    let limit = contact.pair.friction * seen;
+    let limit = contact.pair.friction * normal.friction_share * seen;
     let turn = Turn::of(contact, dt);
     let scale = if options.history == History::Displacement { stiffness } else { 1.0 };
     let negligible = NEGLIGIBLE * limit / scale;
@@ -67,6 +68,7 @@ fn spring(
     TangentialState {
         force: response.force,
         sliding: response.sliding,
+        limit,
         arms: [torque_i, torque_j],
         stiffness,
         dashpot,

@@ -45,7 +45,7 @@ pub fn by_center(sample: &Sample, floor: &str) -> Result<f64, String> {
     for ((center, radius), m) in sample.centers().iter().zip(sample.radius()).zip(&sample.system.mass) {
         moment += m * (center - point).dot(&normal);
         mass += m;
-        solid += sphere_volume::sphere(*radius);
+        solid += sample.system.solid(*radius);
     }
     Ok(if area > 0.0 { solid / (2.0 * area * moment / mass) } else { f64::NAN })
 }
@@ -55,6 +55,9 @@ pub fn by_center(sample: &Sample, floor: &str) -> Result<f64, String> {
 /// # Errors
 /// Walls enclose no computed shape.
 pub fn profile(sample: &Sample, bins: &Bins) -> Result<Vec<f64>, String> {
+    if sample.system.disks {
+        return Err("profiles of disks are not computed".to_owned());
+    }
     let axis = bins.axis as usize;
     let domain = &sample.system.domain;
     let walls = sample.walls();

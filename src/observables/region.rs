@@ -40,8 +40,11 @@ impl Part {
     /// A region of a sample.
     ///
     /// # Errors
-    /// The floor of a bed is no plane.
+    /// The floor of a bed is no plane, or a part of a packing of disks is asked for.
     pub fn new(region: &Region, sample: &Sample) -> Result<Self, String> {
+        if sample.system.disks && !matches!(region, Region::Everything {}) {
+            return Err("of disks only the region `everything` is computed".to_owned());
+        }
         Ok(match region {
             Region::Everything {} => Self::Everything,
             Region::Box { min, max } => Self::Box { min: min.map(Quantity::si), max: max.map(Quantity::si) },
@@ -71,7 +74,7 @@ impl Part {
     #[must_use]
     pub fn solid(&self, sample: &Sample, radius: &[f64]) -> f64 {
         let parts = sample.centers().iter().zip(radius).map(|(center, radius)| match self {
-            Self::Everything => sphere_volume::sphere(*radius),
+            Self::Everything => sample.system.solid(*radius),
             Self::Box { min, max } => in_box(sample, center, *radius, min, max),
             Self::Slab { origin, up, low, high } => {
                 let height = (center - origin).dot(up);

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::sphere_volume::sphere;
 use crate::Vector;
 use crate::bodies::BodyShape;
 use crate::case::scene::{Scene, SceneDomain, SceneShape};
@@ -26,6 +27,8 @@ pub struct System {
     pub bodies: Vec<Wall>,
     /// Friction of pairs of materials.
     pub friction: Vec<Friction>,
+    /// Whether the particles are disks, which fill the domain across their plane.
+    pub disks: bool,
 }
 
 /// A wall.
@@ -65,6 +68,8 @@ struct Stated {
     bodies: Vec<StatedWall>,
     #[serde(default)]
     friction: Vec<Friction>,
+    #[serde(default)]
+    disks: bool,
 }
 
 /// The body of a scene, whose other keys do not matter here.
@@ -105,6 +110,7 @@ impl System {
             domain: Domain::new(&scene.domain),
             bodies: scene.bodies.iter().map(|body| Wall::new(&body.name, body.material, &body.shape)).collect(),
             friction: scene.pairs.iter().filter_map(friction).collect(),
+            disks: scene.disk_height.is_some(),
         }
     }
 
@@ -156,7 +162,14 @@ impl System {
             domain,
             bodies,
             friction: stated.friction,
+            disks: stated.disks,
         })
+    }
+
+    /// Volume of a particle [m3]; disks are as high as the domain, which their plane crosses.
+    #[must_use]
+    pub fn solid(&self, radius: f64) -> f64 {
+        if self.disks { std::f64::consts::PI * radius * radius * self.domain.length.y } else { sphere(radius) }
     }
 
     /// Names of the walls.

@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::laws::memory::Memory;
 
 /// The version of the checkpoint format.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 const HEADER: &str = "header.json";
 
 #[derive(Serialize, Deserialize)]

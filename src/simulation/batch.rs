@@ -39,6 +39,7 @@ pub struct Batch<H> {
     shear: Column,
     friction: Column,
     damping: Column,
+    cohesive: [bool; LANES],
     history: [H; LANES],
     alive: [u64; LANES],
     /// Force on i and j, and the first component of the torque.
@@ -66,6 +67,7 @@ impl<H: Copy + Default> Batch<H> {
             shear: column,
             friction: column,
             damping: column,
+            cohesive: [false; LANES],
             history: [H::default(); LANES],
             alive: [0; LANES],
             force: [rows; 2],
@@ -97,6 +99,7 @@ impl<H: Copy + Default> Batch<H> {
         self.shear[lane] = pair.effective_shear.unwrap_or_default();
         self.friction[lane] = pair.friction.unwrap_or_default();
         self.damping[lane] = pair.damping_ratio;
+        self.cohesive[lane] = pair.cohesive.unwrap_or_default();
     }
 
     /// Evaluates all lanes, the empty ones too.
@@ -118,6 +121,7 @@ impl<H: Copy + Default> Batch<H> {
                 effective_shear: Some(self.shear[lane]),
                 damping_ratio: self.damping[lane],
                 friction: Some(self.friction[lane]),
+                cohesive: Some(self.cohesive[lane]),
                 ..PairProperties::default()
             };
             let contact = contact(

@@ -4,7 +4,8 @@
 use rayon::prelude::*;
 
 use crate::Vector;
-use crate::bodies::{Body, BodyShape};
+use crate::bodies::{self, Body, BodyShape};
+use crate::case::scene::Start;
 use crate::contacts::{Account, BLOCK, Block, Flow, Pair, Slots};
 use crate::geometry::{self, ContactGeometry};
 use crate::laws::Contact;
@@ -66,6 +67,8 @@ impl<M: ContactModel> Simulation<M> {
     pub(super) fn forces(&mut self, elapsed: f64, then: Pass) {
         let passed = self.sweep(elapsed, (rayon::current_num_threads() == 1).then_some(then));
         self.body_forces();
+        let begins = self.step == 0 && self.start == Start::Synchronized;
+        bodies::kick(&mut self.bodies, if begins { 0.5 * self.time_step } else { self.time_step });
         if self.ledger_kept {
             self.ledger.accumulate(&self.contacts);
         }
@@ -77,7 +80,7 @@ impl<M: ContactModel> Simulation<M> {
 
     /// The sweeps over all blocks, and on one thread the pass over the particles of each block right behind.
     fn sweep(&mut self, elapsed: f64, then: Option<Pass>) -> Option<Moved> {
-        self.model.advance(&mut self.shared, self.step as f64 * self.time_step, elapsed);
+        self.model.advance(&mut self.shared, &self.climate.now, elapsed);
         let view = View {
             model: self.model,
             shared: &self.shared,
@@ -91,7 +94,7 @@ impl<M: ContactModel> Simulation<M> {
             selection: self.neighbors.selection(self.fastest),
             elapsed,
         };
-        let kept = self.ledger_kept;
+        let kept = self.ledger_kept || (self.accounts_kept && self.step == self.stop);
         let sweep = |local: Local, block: &mut Block<M::History>, loads: &mut [Load]| {
             if kept { view.sweep::<true>(local, block, loads) } else { view.sweep::<false>(local, block, loads) }
         };
@@ -292,6 +295,10 @@ impl<M: ContactModel> View<'_, M> {
         let (particle, body) = (near.particle as usize - local.first, &self.bodies[near.body as usize]);
         let (place, motion) = (&local.place[particle], &local.motion[particle]);
         block.body_forces[slot] = Vector::zeros();
+        if !body.present {
+            block.near.alive[slot] = false;
+            return;
+        }
         let Some(mut geometry) = body.geometry(place.position, place.radius) else { return };
         match body.shape {
             BodyShape::Plane { .. } => {
@@ -404,6 +411,7 @@ fn account(
         damping_force: action.normal.force - action.normal.elastic,
         energy: action.normal.energy + action.springs,
         springs: action.springs,
+        friction_limit: action.friction_limit,
     });
     if let Some(action) = action {
         flow.losses = flow.losses + action.losses;

@@ -93,7 +93,7 @@ pub fn approaches(scene: &Scene) -> impl Iterator<Item = StartApproach> {
             let geometry = Body::new(body).geometry(particle.position.into(), particle.radius)?;
             let wall = match &body.motion {
                 SceneMotion::Prescribed { velocity } => Vector::from(*velocity),
-                SceneMotion::Fixed => Vector::zeros(),
+                _ => Vector::zeros(),
             };
             let velocity = Vector::from(particle.velocity) - wall;
             approach(scene, &geometry, particle.mass, [particle.material, body.material], velocity)

@@ -71,7 +71,7 @@ pub fn steps(case: &Case, scene: &mut Scene, law: &Normal) -> Result<Vec<u64>, P
         return Err(Problem::new(key, format!("{base:e} s"), "a time step is a positive normal number"));
     }
     let mut stages = Vec::new();
-    let (mut samples, mut values) = (0.0, 0.0);
+    let (mut total, mut values) = (0.0, 0.0);
     // A particle of a packing has three contacts of its own: two ids and a force each.
     let row = if scene.contacts { 31 } else { 16 };
     for (i, stage) in case.stages.iter().enumerate() {
@@ -84,10 +84,11 @@ pub fn steps(case: &Case, scene: &mut Scene, law: &Normal) -> Result<Vec<u64>, P
             // Every other end is refused by name before.
             _ => 0.0,
         };
-        let own = whole(length / base / case.output.every as f64);
-        samples += own;
-        let steps = own * case.output.every as f64 * refined;
-        if !(1.0..=MOST_STEPS).contains(&(samples * case.output.every as f64 * refined)) {
+        let every = stage.output.as_ref().map_or(case.output.every, |output| output.every) as f64;
+        let own = whole(length / base / every);
+        let steps = own * every * refined;
+        total += steps;
+        if !(1.0..=MOST_STEPS).contains(&total) {
             let allowed =
                 format!("makes {steps:e} steps of {:e} s, from 1 to {MOST_STEPS:e} are allowed", scene.time_step);
             return Err(Problem::new(key, format!("{length:e} s"), allowed));
@@ -121,7 +122,7 @@ pub fn travel(case: &Case, scene: &Scene, origins: &Origins) -> Result<(), Probl
     let particles = particles.map(|(i, particle)| (origins.key(case, i, "velocity"), particle.velocity));
     let walls = scene.bodies.iter().enumerate().filter_map(|(i, body)| match &body.motion {
         SceneMotion::Prescribed { velocity } => Some((format!("bodies.{i}.motion.velocity"), *velocity)),
-        SceneMotion::Fixed => None,
+        _ => None,
     });
     let set = scene.stages.iter().enumerate().flat_map(|(i, stage)| {
         stage.actions.iter().filter_map(move |action| match action {

@@ -7,18 +7,20 @@ use super::random::Random;
 use super::{Scene, SceneParticle, index, si};
 use crate::Vector;
 use crate::case::quantity::{Kind, Length, Quantity};
-use crate::case::schema::Case;
+use crate::case::schema::{Case, Geometry};
 use crate::case::source::{ParticleSource, RadiusDistribution};
 use crate::domain::Domain;
 use crate::error::Problem;
 
 /// Which source each particle comes from.
+#[derive(Default)]
 pub struct Origins(Vec<usize>);
 
 impl Origins {
     /// The key of the case that gave `value` (`radius`, `position` or `velocity`) to a particle.
     pub fn key(&self, case: &Case, particle: usize, value: &str) -> String {
-        let source = self.0[particle];
+        // Particles of another case have no source in this one.
+        let Some(&source) = self.0.get(particle) else { return "start_from.case".to_owned() };
         let name = match (&case.particles[source], value) {
             (ParticleSource::Random { .. }, "position") => "region",
             (ParticleSource::Lattice { .. }, "position") => "spacing",
@@ -41,7 +43,7 @@ pub fn place(case: &Case, scene: &mut Scene) -> Result<Origins, Problem> {
         placed.push(match source {
             ParticleSource::Single { material, radius, position, velocity, angular_velocity } => {
                 let moving = (si(velocity), si(angular_velocity));
-                vec![sphere(case, material, radius.si(), si(position), moving)]
+                vec![particle(case, material, radius.si(), si(position), moving)]
             }
             ParticleSource::Lattice { .. } => lattice(case, source, &domain, &mut Random::new(seed, i)),
             _ => Vec::new(),
@@ -62,7 +64,7 @@ pub fn place(case: &Case, scene: &mut Scene) -> Result<Origins, Problem> {
                 .map_err(|full| Problem::new(format!("particles.{i}.count"), count, full.to_string()))?;
             let mut moving = || (any(Some(*velocity), &mut random), any(*angular_velocity, &mut random));
             let spheres = radii.iter().zip(places);
-            placed[i] = spheres.map(|(radius, at)| sphere(case, material, *radius, at.into(), moving())).collect();
+            placed[i] = spheres.map(|(radius, at)| particle(case, material, *radius, at.into(), moving())).collect();
         }
     }
     let origins = placed.iter().enumerate().flat_map(|(source, particles)| vec![source; particles.len()]).collect();
@@ -70,7 +72,9 @@ pub fn place(case: &Case, scene: &mut Scene) -> Result<Origins, Problem> {
     Ok(Origins(origins))
 }
 
-fn sphere(
+/// A particle of a case: a sphere, or a disk that moves and turns in its plane. Its radius is that at the temperature of the
+/// start, its mass that of the radius that the case gives.
+fn particle(
     case: &Case,
     material: &str,
     radius: f64,
@@ -80,9 +84,27 @@ fn sphere(
     let material = index(case, material);
     // A material of particles has a density: checked before.
     let density = case.materials[material].density.map_or(0.0, Quantity::si);
-    let mass = density * (4.0 / 3.0 * PI * radius * radius * radius);
-    let moment_of_inertia = 0.4 * mass * radius * radius;
-    SceneParticle { material, radius, mass, moment_of_inertia, position, velocity, angular_velocity }
+    let expansion = super::expansion(&case.materials[material]);
+    let swollen = expansion.zip(case.temperature).map_or(1.0, |(expansion, at)| expansion.factor(at.si()));
+    let (mass, share, velocity, angular_velocity) = match &case.geometry {
+        Geometry::Spheres {} => {
+            (density * (4.0 / 3.0 * PI * radius * radius * radius), 0.4, velocity, angular_velocity)
+        }
+        Geometry::Disks { height } => {
+            let ([x, _, z], [_, spin, _]) = (velocity, angular_velocity);
+            (density * (PI * radius * radius * height.si()), 0.5, [x, 0.0, z], [0.0, spin, 0.0])
+        }
+    };
+    let radius = radius * swollen;
+    SceneParticle {
+        material,
+        radius,
+        mass,
+        moment_of_inertia: share * mass * radius * radius,
+        position,
+        velocity,
+        angular_velocity,
+    }
 }
 
 /// A cubic lattice, x running fastest; noise that crosses a periodic face re-enters on the other side.
@@ -99,7 +121,7 @@ fn lattice(case: &Case, source: &ParticleSource, domain: &Domain, random: &mut R
             origin[axis].si() + spacing.si() * f64::from(cell[axis]) + random.between(-noise.si(), noise.si())
         });
         let moving = (any(*velocity, random), any(*angular_velocity, random));
-        sphere(case, material, radius, domain.wrap(place).0.into(), moving)
+        particle(case, material, radius, domain.wrap(place).0.into(), moving)
     };
     sites.map(site).collect()
 }

@@ -2,8 +2,8 @@
 
 use super::{Mirror, SceneModel};
 use crate::case::model::{
-    History as Remembered, MomentLaw, NormalLaw, RollingDashpot, RollingLimit, RollingStiffness, TangentialLaw,
-    Twisting as CaseTwisting,
+    Cooling as CaseCooling, History as Remembered, HotFriction, MomentLaw, NormalLaw, RollingDashpot, RollingLimit,
+    RollingStiffness, Sliding as CaseSliding, TangentialLaw, Twisting as CaseTwisting,
 };
 use crate::case::tag;
 use crate::error::Problem;
@@ -13,11 +13,21 @@ use crate::laws::moments::elastic_plastic_rolling::{Dashpot as Damper, ElasticPl
 use crate::laws::moments::twisting::{Spring, Twisting};
 use crate::laws::normal::cohesive::DashpotLimit;
 use crate::laws::normal::hysteretic_branches::Rule;
+use crate::laws::normal::luding_sintering::{Cooling, Sliding};
 use crate::laws::registry::{Normal, Specification, Tangential};
 use crate::laws::slider::History;
 use crate::laws::tangential::options::{Dashpot, Options};
 
 impl SceneModel {
+    /// The sliding rule, which the tangential law of sintering states and the normal law follows.
+    fn sliding(&self) -> Sliding {
+        match &self.tangential {
+            TangentialLaw::LudingSintering { sliding: CaseSliding::Cut, .. } => Sliding::Cut,
+            TangentialLaw::LudingSintering { sliding: CaseSliding::Brittle, .. } => Sliding::Brittle,
+            _ => Sliding::Off,
+        }
+    }
+
     /// The model that the engine runs.
     ///
     /// # Errors
@@ -25,7 +35,7 @@ impl SceneModel {
     /// not have.
     pub fn specification(&self, mirror: &Mirror) -> Result<Specification, Problem> {
         let specification = Specification {
-            normal: normal(&self.normal, mirror)?,
+            normal: normal(&self.normal, self.sliding(), mirror)?,
             tangential: tangential(&self.tangential, mirror)?,
             moments: moments(&self.moments, mirror)?,
         };
@@ -37,7 +47,7 @@ impl SceneModel {
     }
 }
 
-fn normal(law: &NormalLaw, mirror: &Mirror) -> Result<Normal, Problem> {
+fn normal(law: &NormalLaw, sliding: Sliding, mirror: &Mirror) -> Result<Normal, Problem> {
     Ok(match law {
         NormalLaw::Hertz { force_cut } => Normal::Hertz { force_cut: force_cut.cuts() },
         NormalLaw::Dmt { force_cut } => {
@@ -64,8 +74,34 @@ fn normal(law: &NormalLaw, mirror: &Mirror) -> Result<Normal, Problem> {
             force_cut: force_cut.cuts(),
             rule: mirror.hysteresis.unwrap_or(Rule::SelfConsistent),
         },
-        NormalLaw::Jkr {} | NormalLaw::LudingSintering { .. } | NormalLaw::WaltonCohesive { .. } => {
-            let known = "`hertz`, `dmt`, `sjkr`, `sjkr2`, `linear_spring_dashpot` and `luding_hysteretic`";
+        NormalLaw::LudingSintering {
+            k1,
+            k2,
+            kc,
+            fluid_overlap,
+            dashpot,
+            melting_temperature,
+            melting_range,
+            relaxation_time,
+            cooling,
+        } => Normal::LudingSintering {
+            k1: k1.si(),
+            k2: k2.si(),
+            kc: kc.si(),
+            fluid_overlap: fluid_overlap.si(),
+            dashpot: dashpot.si(),
+            melting_temperature: melting_temperature.si(),
+            melting_range: melting_range.si(),
+            relaxation_time: relaxation_time.si(),
+            cooling: match cooling {
+                CaseCooling::Lagged => Cooling::Lagged,
+                CaseCooling::Implicit => Cooling::Implicit,
+            },
+            sliding,
+        },
+        NormalLaw::Jkr {} | NormalLaw::WaltonCohesive { .. } => {
+            let known = "`hertz`, `dmt`, `sjkr`, `sjkr2`, `linear_spring_dashpot`, `luding_hysteretic` and \
+                         `luding_sintering`";
             return Err(unknown("model.normal.law", tag(law, "law"), known));
         }
     })
@@ -88,8 +124,13 @@ fn tangential(law: &TangentialLaw, mirror: &Mirror) -> Result<Tangential, Proble
             dashpot: Dashpot::Constant { value: dashpot.si() },
             options: options(Options::plain().history),
         },
-        TangentialLaw::LudingSintering { .. } | TangentialLaw::WaltonFriction { .. } => {
-            let known = "`frictionless`, `mindlin` and `linear_history`";
+        TangentialLaw::LudingSintering { stiffness_ratio, dashpot, friction, .. } => Tangential::LudingSintering {
+            stiffness_ratio: stiffness_ratio.get(),
+            dashpot: dashpot.si(),
+            softens: *friction == HotFriction::Softens,
+        },
+        TangentialLaw::WaltonFriction { .. } => {
+            let known = "`frictionless`, `mindlin`, `linear_history` and `luding_sintering`";
             return Err(unknown("model.tangential.law", tag(law, "law"), known));
         }
     })

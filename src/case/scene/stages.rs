@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Scene, SceneMotion, mixed, si};
 use crate::case::model::PairValues;
-use crate::case::protocol::{Action, Motion};
+use crate::case::protocol::Action;
 use crate::case::schema::Case;
 use crate::material::PairProperties;
 
@@ -15,6 +15,8 @@ use crate::material::PairProperties;
 pub struct SceneStage {
     pub name: String,
     pub steps: u64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub output_every: Option<u64>,
     pub actions: Vec<SceneAction>,
 }
 
@@ -26,6 +28,10 @@ pub enum SceneAction {
     SetPair { pair: PairProperties },
     SetMotion { body: usize, motion: SceneMotion },
     SetGravity { value: [f64; 3] },
+    Remove { body: usize },
+    Strain { body: usize, from: usize, strain: f64 },
+    RampTemperature { to: f64 },
+    SetRelaxationTime { value: f64 },
 }
 
 impl Scene {
@@ -48,6 +54,10 @@ impl Scene {
                     }
                 }
                 SceneAction::SetGravity { value } => scene.gravity = *value,
+                SceneAction::Remove { .. }
+                | SceneAction::Strain { .. }
+                | SceneAction::RampTemperature { .. }
+                | SceneAction::SetRelaxationTime { .. } => {}
             }
         }
         scene
@@ -58,13 +68,15 @@ impl Scene {
 /// driven particles, whose paths have their own.
 pub fn resolve(case: &Case, scene: &Scene, steps: &[u64]) -> Vec<SceneStage> {
     let changes = |action: &Action| !matches!(action, Action::Drive { .. });
-    if case.observables.is_empty() && !case.stages.iter().flat_map(|stage| &stage.actions).any(changes) {
+    let heated = case.temperature.is_some() || case.start_from.is_some();
+    if !heated && case.observables.is_empty() && !case.stages.iter().flat_map(|stage| &stage.actions).any(changes) {
         return Vec::new();
     }
     let mut values: Vec<PairValues> = case.pairs.iter().map(|pair| pair.values.clone()).collect();
     let stages = case.stages.iter().zip(steps).map(|(stage, steps)| SceneStage {
         name: stage.name.clone(),
         steps: *steps,
+        output_every: stage.output.as_ref().map(|output| output.every << scene.refinement),
         actions: stage.actions.iter().filter_map(|action| resolved(case, scene, &mut values, action)).collect(),
     });
     stages.collect()
@@ -72,6 +84,7 @@ pub fn resolve(case: &Case, scene: &Scene, steps: &[u64]) -> Vec<SceneStage> {
 
 /// An action in SI and by index. None for a change of materials that the scene does not have.
 fn resolved(case: &Case, scene: &Scene, values: &mut [PairValues], action: &Action) -> Option<SceneAction> {
+    let index = |name: &String| scene.bodies.iter().position(|one| one.name == *name);
     match action {
         Action::SetPair { between: [first, second], values: new } => {
             let stated =
@@ -83,14 +96,15 @@ fn resolved(case: &Case, scene: &Scene, values: &mut [PairValues], action: &Acti
             Some(SceneAction::SetPair { pair: mixed(&scene.materials, between, &values[at]) })
         }
         Action::SetMotion { body, motion } => {
-            let body = scene.bodies.iter().position(|one| one.name == *body)?;
-            let motion = match motion {
-                Motion::Prescribed { velocity } => SceneMotion::Prescribed { velocity: si(velocity) },
-                _ => SceneMotion::Fixed,
-            };
-            Some(SceneAction::SetMotion { body, motion })
+            Some(SceneAction::SetMotion { body: index(body)?, motion: super::bodies::motion(case, motion) })
         }
         Action::SetGravity { value } => Some(SceneAction::SetGravity { value: si(value) }),
+        Action::Remove { body } => Some(SceneAction::Remove { body: index(body)? }),
+        Action::Strain { body, from, strain } => {
+            Some(SceneAction::Strain { body: index(body)?, from: index(from)?, strain: strain.get() })
+        }
+        Action::RampTemperature { to, .. } => Some(SceneAction::RampTemperature { to: to.si() }),
+        Action::SetRelaxationTime { value } => Some(SceneAction::SetRelaxationTime { value: value.si() }),
         _ => None,
     }
 }

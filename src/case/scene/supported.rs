@@ -1,8 +1,8 @@
 //! What this build computes of what the schema can say.
 
 use crate::case::measure::Measure;
-use crate::case::protocol::{Action, End, Motion, Shape, Stage};
-use crate::case::schema::{Case, Geometry};
+use crate::case::protocol::{Action, End, HeatTarget, Load, Motion, Shape, Stage};
+use crate::case::schema::Case;
 use crate::case::source::ParticleSource;
 use crate::case::tag;
 use crate::error::Problem;
@@ -13,13 +13,7 @@ fn refuse(key: impl Into<String>, value: impl ToString, what: &str) -> Result<()
 
 /// Refuses by name what the schema can say and this build does not compute.
 pub fn supported(case: &Case) -> Result<(), Problem> {
-    if !matches!(case.geometry, Geometry::Spheres {}) {
-        return refuse("geometry.kind", tag(&case.geometry, "kind"), "`spheres`");
-    }
     heat(case)?;
-    if let Some(start) = &case.start_from {
-        return refuse("start_from.case", &start.case, "cases that state their particles");
-    }
     for (i, source) in case.particles.iter().enumerate() {
         let computed = matches!(
             source,
@@ -35,22 +29,16 @@ pub fn supported(case: &Case) -> Result<(), Problem> {
             let kind = tag(&body.shape, "kind");
             return refuse(format!("bodies.{i}.shape.kind"), kind, "the shapes `plane` and `cylinder`");
         }
-        if !matches!(body.motion, Motion::Fixed {} | Motion::Prescribed { .. }) {
-            return refuse(
-                format!("bodies.{i}.motion.kind"),
-                tag(&body.motion, "kind"),
-                "`fixed` and `prescribed` bodies",
-            );
-        }
+        motion(&format!("bodies.{i}.motion"), &body.motion)?;
     }
     stages(&case.stages)?;
     for (i, observable) in case.observables.iter().enumerate() {
         if matches!(
             observable.measure,
-            Measure::Temperature { .. } | Measure::HeatFlow { .. } | Measure::WallLineStress { .. }
+            Measure::Temperature { .. } | Measure::HeatFlow { .. }
         ) {
             let kind = tag(&observable.measure, "kind");
-            return refuse(format!("observables.{i}.measure.kind"), kind, "measures of spheres without heat");
+            return refuse(format!("observables.{i}.measure.kind"), kind, "measures without heat");
         }
     }
     Ok(())
@@ -63,6 +51,19 @@ fn heat(case: &Case) -> Result<(), Problem> {
     }
 }
 
+fn motion(key: &str, motion: &Motion) -> Result<(), Problem> {
+    match motion {
+        Motion::Sprung { .. } => {
+            let what = "`fixed`, `prescribed`, `servo` and `oscillating` bodies";
+            refuse(format!("{key}.kind"), tag(motion, "kind"), what)
+        }
+        Motion::Servo { load: Load::Pressure { .. }, .. } => {
+            refuse(format!("{key}.load.kind"), "pressure", "loads of the kinds `force` and `line_stress`")
+        }
+        _ => Ok(()),
+    }
+}
+
 fn stages(stages: &[Stage]) -> Result<(), Problem> {
     for (i, stage) in stages.iter().enumerate() {
         for (j, action) in stage.actions.iter().enumerate() {
@@ -70,14 +71,19 @@ fn stages(stages: &[Stage]) -> Result<(), Problem> {
                 Action::Drive { .. }
                 | Action::SetPair { .. }
                 | Action::SetGravity { .. }
-                | Action::SetMotion { motion: Motion::Fixed {} | Motion::Prescribed { .. }, .. } => {}
-                Action::SetMotion { motion, .. } => {
-                    let key = format!("stages.{i}.actions.{j}.motion.kind");
-                    return refuse(key, tag(motion, "kind"), "`fixed` and `prescribed` bodies");
+                | Action::Remove { .. }
+                | Action::Strain { .. }
+                | Action::RampTemperature { target: HeatTarget::Particles {}, .. }
+                | Action::SetRelaxationTime { .. } => {}
+                Action::SetMotion { motion: to, .. } => motion(&format!("stages.{i}.actions.{j}.motion"), to)?,
+                Action::RampTemperature { .. } => {
+                    let key = format!("stages.{i}.actions.{j}.target.kind");
+                    return refuse(key, "body", "the temperature of `particles`");
                 }
                 _ => {
                     let key = format!("stages.{i}.actions.{j}.do");
-                    let what = "the actions `drive`, `set_gravity`, `set_motion` and `set_pair`";
+                    let what = "the actions `drive`, `ramp_temperature`, `remove`, `set_gravity`, `set_motion`, `set_pair`, \
+                                `set_relaxation_time` and `strain`";
                     return refuse(key, tag(action, "do"), what);
                 }
             }
@@ -85,10 +91,6 @@ fn stages(stages: &[Stage]) -> Result<(), Problem> {
         if !matches!(stage.end, End::Duration { .. } | End::Contacts { .. }) {
             let kind = tag(&stage.end, "kind");
             return refuse(format!("stages.{i}.end.kind"), kind, "stages that end by `duration` or `contacts`");
-        }
-        if let Some(output) = &stage.output {
-            let key = format!("stages.{i}.output.every");
-            return refuse(key, output.every, "cases with one sampling interval, [output]");
         }
     }
     Ok(())

@@ -36,6 +36,30 @@ pub fn room(case: &Case, scene: &Scene) -> Result<(), Problem> {
     }
 }
 
+/// Refuses temperatures at which the law or a radius vanishes.
+pub fn heat(case: &Case, scene: &Scene, laws: &Specification) -> Result<(), Problem> {
+    let stages = scene.stages.iter().enumerate();
+    let ramps = stages.flat_map(|(i, stage)| stage.actions.iter().filter_map(move |action| match action {
+        SceneAction::RampTemperature { to } => Some((format!("stages.{i}.actions"), *to)),
+        _ => None,
+    }));
+    let start = case.temperature.map(|temperature| ("temperature".to_owned(), temperature.si()));
+    for (key, temperature) in start.into_iter().chain(ramps) {
+        let value = || format!("{temperature} K");
+        if let Some(law) = laws.normal.sintering()
+            && law.softened(temperature) <= 0.0
+        {
+            let most = law.melting_temperature + 18.0 * law.melting_range;
+            return Err(Problem::new(key, value(), format!("k1(T) is 0 there: at most {most} K")));
+        }
+        let expansions = scene.materials.iter().filter_map(|material| material.expansion);
+        if expansions.into_iter().any(|expansion| expansion.factor(temperature) <= 0.0) {
+            return Err(Problem::new(key, value(), "thermal expansion leaves no radius there"));
+        }
+    }
+    Ok(())
+}
+
 impl Scene {
     /// Checks what the engine takes for granted.
     ///
@@ -68,7 +92,7 @@ impl Scene {
         }
         self.indices()
             .or_else(|| self.staged())
-            .or_else(|| self.numbers())
+            .or_else(|| self.numbers(&laws))
             .or_else(|| self.paths())
             .or_else(|| self.values(&laws))
             .or_else(|| self.missing_pair())
@@ -95,14 +119,18 @@ impl Scene {
             return Some(format!("stages: {steps} steps, the run has {}", self.steps));
         }
         for (i, stage) in self.stages.iter().enumerate() {
-            if stage.steps == 0 || !stage.steps.is_multiple_of(self.output_every) {
-                let every = self.output_every;
+            let every = stage.output_every.unwrap_or(self.output_every);
+            if stage.steps == 0 || every == 0 || !stage.steps.is_multiple_of(every) {
                 return Some(format!("stages.{i}.steps = {}: a multiple of output_every = {every}", stage.steps));
             }
             for (j, action) in stage.actions.iter().enumerate() {
                 let key = format!("stages.{i}.actions.{j}");
                 match action {
-                    SceneAction::SetMotion { body, .. } if *body >= self.bodies.len() => {
+                    SceneAction::SetMotion { body, .. }
+                    | SceneAction::Remove { body }
+                    | SceneAction::Strain { body, .. }
+                        if *body >= self.bodies.len() =>
+                    {
                         return Some(format!("{key}.body = {body}: there are {} bodies", self.bodies.len()));
                     }
                     SceneAction::SetPair { pair } if self.pair(pair.between[0], pair.between[1]).is_none() => {
@@ -115,10 +143,10 @@ impl Scene {
         None
     }
 
-    fn numbers(&self) -> Option<String> {
+    fn numbers(&self, laws: &Specification) -> Option<String> {
         let positive = |value: f64| value.is_normal() && value > 0.0;
         for (i, pair) in self.pairs.iter().enumerate() {
-            if !positive(pair.effective_young) {
+            if laws.asks().effective_young && !positive(pair.effective_young) {
                 return Some(format!("pairs.{i}.effective_young = {} Pa: must be positive", pair.effective_young));
             }
             if pair.damping_ratio < 0.0 {

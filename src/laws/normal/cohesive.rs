@@ -11,7 +11,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::laws::{Approach, NormalLaw, NormalState, PairLaw};
+use crate::laws::{Approach, NormalLaw, NormalState, PairLaw, Surroundings};
 
 use super::hertz::Hertz;
 
@@ -57,8 +57,8 @@ impl<N: NormalLaw, A: Attraction> NormalLaw for Cohesive<N, A> {
     type History = N::History;
     type Shared = N::Shared;
 
-    fn advance(&self, shared: &mut N::Shared, time: f64, dt: f64) {
-        self.base.advance(shared, time, dt);
+    fn advance(&self, shared: &mut N::Shared, surroundings: &Surroundings, dt: f64) {
+        self.base.advance(shared, surroundings, dt);
     }
 
     #[inline(always)]

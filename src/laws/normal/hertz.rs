@@ -72,6 +72,7 @@ impl NormalLaw for Hertz {
             tangent_stiffness,
             energy: 0.4 * elastic * approach.overlap,
             plastic: 0.0,
+            friction_share: 1.0,
         }
     }
 }

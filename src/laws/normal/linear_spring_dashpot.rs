@@ -60,6 +60,7 @@ impl NormalLaw for LinearSpringDashpot {
             tangent_stiffness: self.stiffness,
             energy: 0.5 * elastic * approach.overlap,
             plastic: 0.0,
+            friction_share: 1.0,
         }
     }
 }

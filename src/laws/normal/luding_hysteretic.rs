@@ -85,6 +85,7 @@ impl NormalLaw for LudingHysteretic {
             tangent_stiffness: k1,
             energy: 0.5 * elastic * elastic / stiffness,
             plastic: branches.plastic(before, *largest),
+            friction_share: 1.0,
         }
     }
 }
