@@ -28,11 +28,11 @@ UNITS = {
     "contact_force": "N",
     "contact_elastic": "N",
     "contact_limit": "N",
-    "contact_memory": "m, m, m, m, N/m",
+    "contact_memory": "SI",
     "temperature": "K",
     "radius": "m",
     "body_point": "m",
-    "law_state": "N/m",
+    "law_state": "SI",
     "energy_kinetic": "J",
     "energy_elastic": "J",
     "energy_gravity": "J",
@@ -87,6 +87,8 @@ class Header:
     gravity: list[float]
     schema: int = SCHEMA
     columns: dict[str, str] = field(default_factory=dict[str, str])
+    # Name and unit of each number of the column `law_state`, where there is one.
+    law_state: list[list[str]] | None = None
 
 
 @dataclass(frozen=True)

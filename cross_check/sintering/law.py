@@ -21,7 +21,11 @@ def contact(law: Law, overlaps: Array, stiffness: Array) -> dict[str, Array]:
     return _engine.sintering_contact(json.dumps(law), overlaps, stiffness, True)
 
 
-def softening(law: Law, times: Array, temperatures: Array, relaxation_times: Array, dt: float) -> Array:
-    """k1(T,t) [N/m] at times [s] under temperatures [K] and relaxation times [s], integrated with the step `dt` [s]."""
-    found = _engine.sintering_stiffness(json.dumps(law), times, temperatures, relaxation_times, dt)
+def softening(law: Law, times: Array, temperatures: Array, relaxation_times: Array) -> Array:
+    """k1(T,t) [N/m] at times [s]: at rest at the first temperature [K], then each holds over the step that ends there.
+
+    The engine's step is exact where temperature and relaxation time [s] do not change, however long it is.
+    """
+    steps = np.diff(times, prepend=times[:1])
+    found = _engine.sintering_stiffness(json.dumps(law), temperatures, relaxation_times, steps)
     return np.asarray(found, dtype=np.float64)

@@ -80,7 +80,7 @@ def _softening(law: Law) -> Sheet:
     hot = np.full(len(times), STEP[1])
     hot[0] = STEP[0]
     relaxation = np.full(len(times), RELAXATION)
-    share = softening(law, times, hot, relaxation, 1e-3) / float(law["k1"])
+    share = softening(law, times, hot, relaxation) / float(law["k1"])
     label = "k1(T,t) / k1 [-]"
     lines = [Line("", times, share)]
     panels = [

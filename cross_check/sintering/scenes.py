@@ -22,6 +22,9 @@ Scene = dict[str, Any]
 
 _engine: Any = crossgrain
 
+# By how much of it the time of a run may differ from the planned one: whole steps.
+SHARE = 1e-3
+
 
 @dataclass
 class Planned:
@@ -44,7 +47,11 @@ def load(run: Run) -> Scene:
     scenes = [scene for scene in found["scenes"] if scene["refinement"] == 0 and scene["variant"] == run.variant]
     if len(scenes) != 1:
         raise StudyError(f"{run.name}: the case makes {len(scenes)} scenes of this variant and seed, expected one")
-    return scenes[0]
+    (scene,) = scenes
+    lasts = scene["steps"] * scene["time_step"]
+    if abs(lasts - run.duration) > SHARE * run.duration:
+        raise StudyError(f"{run.name}: lasts {lasts:.6g} s, the study plans {run.duration:.6g} s")
+    return scene
 
 
 def simulate(scene: Scene, folder: Path, states: Path, save_at: list[int]) -> RunRecord:
@@ -79,6 +86,7 @@ def prepare(runs: Iterable[Run], measuring: str) -> list[Planned]:
         other = _difference(parent.scene, start["scene"])
         if other is not None:
             raise StudyError(f"{run.name}: starts from another scene than that of {parent.run.name}; {other} differs")
+        start["scene"] = parent.scene  # the same values once in memory
         if start["step"] not in parent.save_at:
             parent.save_at.append(int(start["step"]))
     for planned in found.values():

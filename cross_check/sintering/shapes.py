@@ -148,12 +148,12 @@ def softening_rate(study: Study, sample: Sample, asked: dict[str, Any]) -> Evide
 
     (k1(T) - k1)^2/(k1(T) k1), the rate times t0/k1, follows from eq. 12 at its first step; `values` are by temperature.
     """
-    relaxation, step = 1e3, 1e-3
+    relaxation, step = 1e3, 1e-6
     found: dict[float, float] = {}
     for temperature in map(float, asked["values"]):
-        times, hot = np.array([0.0, step, 2.0 * step]), np.array([float(asked["cold"]), temperature, temperature])
-        k1 = softening(study.law, times, hot, np.full(3, relaxation), step)
-        found[temperature] = abs(float(k1[2] - k1[1])) / step * relaxation / float(study.law["k1"])
+        hot = np.array([float(asked["cold"]), temperature])
+        k1 = softening(study.law, np.array([0.0, step]), hot, np.full(2, relaxation))
+        found[temperature] = abs(float(k1[1] - k1[0])) / step * relaxation / float(study.law["k1"])
     rates = list(found.values())
     rises = all(low < high for low, high in pairwise(rates))
     worst = _most([abs(found[float(at)] / float(value) - 1.0) for at, value in asked["values"].items()])

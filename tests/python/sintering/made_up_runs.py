@@ -177,7 +177,7 @@ def contact(law: str, overlaps: Array, stiffness: Array, cohesive: bool = True) 
     return {"force": stiffness * overlaps, "largest_overlap": overlaps, "stiffness": stiffness, "offset": 0 * overlaps}
 
 
-def softening(law: str, times: Array, temperatures: Array, relaxation_times: Array, dt: float) -> Array:
+def softening(law: str, temperatures: Array, relaxation_times: Array, steps: Array) -> Array:
     """In place of the softening: it falls from the cold value to a tenth."""
-    del law, temperatures, dt
-    return 1e5 * (0.1 + 0.9 / (1 + np.asarray(times) / np.asarray(relaxation_times)))
+    del law, temperatures
+    return 1e5 * (0.1 + 0.9 / (1 + np.cumsum(steps) / relaxation_times))
