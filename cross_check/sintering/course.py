@@ -91,12 +91,12 @@ def reorganisation(time: Array, density: Array, coordination: Array, stress: Arr
     for first in np.flatnonzero(falling):
         inside[first : first + apart + 1] = True
     every = max(round(STRIDE / interval), 1)
-    rises_by: Array = np.diff(density[::every])
-    quiet = float(np.std(stress[~inside])) if np.any(~inside) else np.nan
+    rises_by = np.diff(density[::every]).tolist()
+    quiet, moved = (float(np.std(stress[which])) if np.any(which) else np.nan for which in (~inside, inside))
     return {
         "C_largest_drop": float(np.min(changes)),
         "C_drop_windows": float(np.sum(falling)),
         "C_windows": float(len(falling)),
         "nu_smallest_rise": float(np.min(rises_by)),
-        "stress_std_ratio": float(np.std(stress[inside]) / quiet) if np.any(inside) and quiet > 0.0 else np.nan,
+        "stress_std_ratio": moved / quiet if quiet > 0.0 else np.nan,
     }

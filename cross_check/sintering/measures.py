@@ -26,6 +26,8 @@ Measured = tuple[Numbers, Arrays]
 # Times of the compression test at which states are kept for figures [s]; bonds are counted at the last one.
 SHOWN = (0.005, 0.02, 0.03, 0.035, 0.04)
 SURVIVAL = SHOWN[-1]
+# Time after the beginning of sintering at which three particles have come to rest [s].
+AT_REST = 0.05
 
 
 @cache
@@ -110,14 +112,17 @@ def _vibration(run: Run, scene: Scene, record: RunRecord) -> Measured:
 
 
 def _three(run: Run, scene: Scene, record: RunRecord) -> Measured:
-    """Three particles: the overlaps that the contact law alone brings, and whether contacts change while it is hot."""
+    """Three particles: density, and whether a contact opens while they are hot.
+
+    So few particles still bounce as sintering begins; contacts are those that hold AT_REST later. None at all is NaN.
+    """
     series, stages, sample = course(scene, record), stage_samples(scene, record), sample_of(run, scene)
     numbers = _at_ends(record, stages, sample, ("press", "heat", "sinter", "relax"))
     hot = stages["sinter"]
+    hot = hot[record["time"][hot] >= record["time"][hot[0]] + AT_REST]
     contacts = [{tuple(pair) for pair in np.sort(snapshot(record, int(i)).pair, axis=1).tolist()} for i in hot]
-    lost = [len(contacts[0] - now) for now in contacts]
-    numbers["contacts_lost"] = float(max(lost))
-    numbers["contacts_at_start"] = float(len(contacts[0]))
+    numbers["contacts_at_rest"] = float(len(contacts[0]))
+    numbers["contacts_lost"] = float(max(len(contacts[0] - now) for now in contacts)) if contacts[0] else np.nan
     return numbers, series
 
 
