@@ -14,6 +14,9 @@ Indices = NDArray[np.int64]
 WALLS = ("left", "bottom", "right", "top")
 NEEDED = ("temperature", "radius", "body_point", "law_state", "contact_elastic", "contact_limit", "contact_memory")
 
+# Share of the normal force below which a tangential one is rounding of the normal [-].
+ROUNDING = 1e-12
+
 
 @dataclass(frozen=True)
 class Snapshot:
@@ -54,9 +57,10 @@ class Snapshot:
 
     @property
     def friction_force(self) -> Array:
-        """Size of the tangential force of each contact, shape (M,) [N]."""
+        """Size of the tangential force of each contact, shape (M,) [N]; what is rounding of the normal one is none."""
         along = np.einsum("md,md->m", self.force, self.normal)
-        return np.linalg.norm(self.force - along[:, None] * self.normal, axis=1)
+        size = np.linalg.norm(self.force - along[:, None] * self.normal, axis=1)
+        return np.where(size > ROUNDING * np.abs(along), size, 0.0)
 
 
 def check(record: RunRecord, where: str) -> None:

@@ -92,6 +92,9 @@ def test_friction_in_use_is_force_over_limit_times_hot_friction() -> None:
     assert found["ft_mean"] == pytest.approx(0.5 / 0.02)
     assert found["frictional_share"] == 0.0
     assert friction_numbers(column(shear=0.0), SAMPLE)["mu_t_largest_share"] == 0.0
+    turned = np.array([math.cos(0.3), math.sin(0.3)])
+    rounded = replace(column(), normal=np.tile(turned, (4, 1)), force=3.0 * np.tile(turned * (1 + 1e-16), (4, 1)))
+    assert friction_numbers(rounded, SAMPLE)["mu_t_largest_share"] == 0.0
     forbidden = replace(column(shear=0.5), limit=np.zeros(4))
     assert friction_numbers(forbidden, SAMPLE)["mu_t_largest_share"] == math.inf
 
