@@ -12,7 +12,7 @@ from pathlib import Path
 from cross_check.compare.verdicts import Comparison
 from cross_check.sintering import judgement, measures, report, runner, scenes
 from cross_check.sintering.errors import StudyError
-from cross_check.sintering.plan import plan
+from cross_check.sintering.plan import PLAIN, plan
 from cross_check.sintering.study import Study
 from cross_check.sintering.targets import judge, targets
 
@@ -47,7 +47,8 @@ def run(options: Options, out: Path, progress: Callable[[int], AbstractContextMa
         outcomes = runner.execute(planned, out, options.jobs, options.live, told)
     if all(outcome.failure for outcome in outcomes.values()):
         raise StudyError(next(outcome.failure for outcome in outcomes.values()))
-    study = Study(outcomes, options.full, dict(planned[0].scene["model"]["normal"]), options.seeds)
+    plain = next(item for item in planned if item.run.mode == PLAIN)
+    study = Study(outcomes, options.full, dict(plain.scene["model"]["normal"]), options.seeds)
     rows = [judge(target, study) for target in asked]
     verdicts = judgement.comparisons(rows, options.full, options.expected)
     page = report.write(out, study, rows, verdicts, report.Started(started, time.monotonic() - begin))

@@ -7,12 +7,14 @@ import shutil
 import tempfile
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
 
 from cross_check.engine import CaseError
 from cross_check.record import RecordError
 from cross_check.sintering import outcome, scenes
+from cross_check.sintering.errors import StudyError
 from cross_check.sintering.measures import measure
 from cross_check.sintering.outcome import Outcome
 from cross_check.sintering.plan import Run
@@ -20,6 +22,7 @@ from cross_check.sintering.scenes import Planned
 
 Progress = Callable[[str, int], None]
 Outcomes = dict[Run, Outcome]
+RECORD = "record-"
 
 
 def execute(planned: list[Planned], out: Path, jobs: int, live: bool, progress: Progress) -> Outcomes:
@@ -29,6 +32,8 @@ def execute(planned: list[Planned], out: Path, jobs: int, live: bool, progress: 
     """
     runs, states = out / "runs", out / "states"
     runs.mkdir(parents=True, exist_ok=True)
+    for left in out.glob(f"{RECORD}*"):
+        shutil.rmtree(left, ignore_errors=True)  # of a study that was stopped
     found: Outcomes = {}
     for item in planned:
         stored = None if live else outcome.kept(item.run, runs, item.key)
@@ -60,7 +65,16 @@ def _made(missing: list[Planned], found: Outcomes, out: Path, jobs: int) -> Iter
                     waiting.remove(item)
                     running[submit(item, out)] = item
             for future in wait(running, return_when=FIRST_COMPLETED).done:
-                yield running.pop(future), future.result()
+                item = running.pop(future)
+                yield item, _result(future, item)
+
+
+def _result(future: Future[Outcome], item: Planned) -> Outcome:
+    """The outcome of a run. Raises StudyError where its process was killed: what is done is kept."""
+    try:
+        return future.result()
+    except BrokenProcessPool as error:
+        raise StudyError(f"{item.run.name}: its process was killed; the same command goes on from here") from error
 
 
 @contextmanager
@@ -85,7 +99,7 @@ def perform(item: Planned, out: Path) -> Outcome:
     states = out / "states" / item.series
     states.mkdir(parents=True, exist_ok=True)
     try:
-        with tempfile.TemporaryDirectory(dir=out, prefix="record-") as folder:
+        with tempfile.TemporaryDirectory(dir=out, prefix=RECORD) as folder:
             record = scenes.simulate(item.scene, Path(folder), states, item.save_at)
             numbers, arrays = measure(item.run, item.scene, record)
     except (CaseError, RecordError, OSError) as error:
