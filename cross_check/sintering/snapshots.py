@@ -30,6 +30,7 @@ MAP = "viridis"
 # The colours reach over these quantiles of the stress of all particles of a figure.
 QUANTILES = (0.05, 0.95)
 LARGEST_DOT = 14.0  # points^2
+BAR = 5e-3  # [m]
 COLUMNS = 3
 
 
@@ -75,7 +76,7 @@ def _vibration(study: Study, size: int, name: str, pressure: int, times: tuple[f
 
 _KEY = (
     "Disks: mean stress, compression positive. Lines: contacts, blue where they attract and orange where they repel. "
-    "Dots: size of the tangential force"
+    "Dots: size of the tangential force. Bars: 5 mm"
 )
 
 
@@ -91,7 +92,7 @@ def _of(arrays: Arrays, prefix: str) -> Arrays:
 
 
 def lay_out(pictures: list[Picture]) -> Figure:
-    """The pictures in rows of three, in one scale of lengths, colours and dots."""
+    """The pictures in rows of three, in one scale of colours and dots; each has its own bar for lengths."""
     rows = -(-len(pictures) // COLUMNS)
     sheet = Figure(figsize=(WIDTH, 2.5 * rows))
     stress = np.concatenate([picture.arrays["stress"] for picture in pictures])
@@ -99,24 +100,23 @@ def lay_out(pictures: list[Picture]) -> Figure:
     scale = Normalize(low, high if high > low else low + 1.0)
     friction = np.concatenate([picture.arrays["friction"] for picture in pictures])
     largest_friction = float(np.max(friction)) if len(friction) else 1.0
-    window = _window(pictures)
     for place, picture in enumerate(pictures):
         row, column = divmod(place, COLUMNS)
         axes = sheet.add_axes((0.01 + 0.292 * column, 1.0 - (row + 0.97) / rows, 0.284, 0.88 / rows))
-        _draw(axes, picture, scale, largest_friction or 1.0, window)
+        _draw(axes, picture, scale, largest_friction or 1.0)
     key = sheet.add_axes((0.9, 0.12, 0.014, 0.76))
     sheet.colorbar(ScalarMappable(scale, MAP), cax=key).set_label("mean stress [N/m]")
     return sheet
 
 
-def _window(pictures: list[Picture]) -> tuple[Array, float]:
-    """Centre and half the edge of the square that holds every picture of the figure [m]."""
-    low = np.min([np.min(p.arrays["position"] - p.arrays["radius"][:, None], axis=0) for p in pictures], axis=0)
-    high = np.max([np.max(p.arrays["position"] + p.arrays["radius"][:, None], axis=0) for p in pictures], axis=0)
-    return 0.5 * (low + high), 0.52 * float(np.max(high - low))
+def _window(arrays: Arrays) -> tuple[Array, float]:
+    """Centre and half the edge of a square that holds all particles [m]."""
+    low = np.min(arrays["position"] - arrays["radius"][:, None], axis=0)
+    high = np.max(arrays["position"] + arrays["radius"][:, None], axis=0)
+    return 0.5 * (low + high), 0.54 * float(np.max(high - low))
 
 
-def _draw(axes: Axes, picture: Picture, scale: Normalize, largest_friction: float, window: tuple[Array, float]) -> None:
+def _draw(axes: Axes, picture: Picture, scale: Normalize, largest_friction: float) -> None:
     arrays = picture.arrays
     position, radius, pair = arrays["position"], arrays["radius"], arrays["pair"]
     colors = mpl.colormaps[MAP](scale(arrays["stress"]))
@@ -136,7 +136,9 @@ def _draw(axes: Axes, picture: Picture, scale: Normalize, largest_friction: floa
     if picture.walls:
         x, z, width, height = arrays["box"]
         axes.add_patch(Rectangle((x, z), width, height, fill=False, edgecolor=INK, linewidth=0.8))
-    (x, z), half = window
+    (x, z), half = _window(arrays)
+    left, low = x - 0.97 * half, z - 0.99 * half
+    axes.plot([left, left + BAR], [low, low], color=INK, linewidth=1.5, solid_capstyle="butt")
     axes.set_xlim(x - half, x + half)
     axes.set_ylim(z - half, z + half)
     axes.set_aspect("equal")
