@@ -15,7 +15,9 @@ import crossgrain
 from cross_check.cli import BAD_INPUT, UNEXPECTED, main
 from cross_check.engine import CaseError
 from cross_check.report.figures import Figured
-from cross_check.sintering import figures, scenes
+from cross_check.sintering import figures, plan, runner, scenes
+from cross_check.sintering.plan import Run
+from cross_check.sintering.scenes import Planned
 from cross_check.sintering.study import Study
 
 
@@ -115,3 +117,14 @@ def test_a_branch_that_starts_from_another_scene_is_refused(tmp_path: Path, monk
     assert done.exit_code == BAD_INPUT
     assert "scene.model.normal.k1 differs" in done.output
     assert "sintering-cooled/p=10,N=100,t=0.01/seed=1" in done.output
+
+
+def test_runs_beside_each_other_have_processes_of_their_own(tmp_path: Path) -> None:
+    runs = [Run(plan.THREE, pressure, 3, 1) for pressure in plan.PRESSURES]
+    planned = [Planned(run, {"nothing": 1}, run.name.replace("/", " "), "series") for run in runs]
+    told: list[str] = []
+    found = runner.execute(planned, tmp_path, 2, live=False, progress=lambda case, _: told.append(case))
+    assert [found[run].run for run in runs] == runs
+    assert all("scene" in found[run].failure for run in runs)  # the native engine refuses it
+    assert told == ["sintering-three"] * 2
+    assert not list((tmp_path / "runs").iterdir())
