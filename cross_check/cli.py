@@ -21,9 +21,12 @@ from cross_check.adapters.interface import InvalidScene, NotComparable, RunFaile
 from cross_check.baseline import BaselineError
 from cross_check.compare.expectations import ExpectationError
 from cross_check.compare.quantity import UnknownQuantity
+from cross_check.compare.verdicts import Comparison
 from cross_check.engine import CaseError, load_case
 from cross_check.meshes import MeshError
 from cross_check.record import RecordError, read
+from cross_check.sintering import command as sintering
+from cross_check.sintering.errors import StudyError
 
 AS_EXPECTED, UNEXPECTED, BAD_INPUT = 0, 1, 2
 
@@ -49,6 +52,7 @@ def _refusing() -> Generator[None]:
         BaselineError,
         bench.BenchError,
         RunFailed,
+        StudyError,
         OSError,
     ) as error:
         _fail(error)
@@ -155,6 +159,13 @@ def run_(
     options = runs.Options(codes=chosen, live=live, full=full, any_version=any_version, time_limit=time_limit)
     if jobs is not None:
         options = replace(options, jobs=jobs)
+    if what == suites.STUDY:
+        study = sintering.Options(full, seeds, options.jobs, live, expected)
+        with _refusing():
+            result = sintering.run(study, out, _progress)
+        for line in result.lines:
+            click.echo(line)
+        _leave(result.verdicts, result.page)
     with _refusing():
         suite, cases = suites.select(what)
         if seeds is not None:
@@ -262,10 +273,17 @@ def _progress(total: int) -> Generator[runs.Progress]:
 
 
 def _conclude(finished: campaign.Finished, out: Path, expected: Path | None = None, pdf: bool = False) -> NoReturn:
-    """Reports, says the result in one line, and leaves with the exit code of the contract."""
+    """Reports, and leaves with the exit code of the contract."""
     page, verdicts = campaign.write(finished, out, expected, pdf)
     if not verdicts:
         _fail(f"nothing was compared: the cases state no gate for the sources {', '.join(('native', *finished.codes))}")
+    for line in campaign.rates(finished):
+        click.echo(line)
+    _leave(verdicts, page)
+
+
+def _leave(verdicts: list[Comparison], page: Path) -> NoReturn:
+    """Names what is not as expected, says the result in one line, and leaves with the exit code of the contract."""
     wrong = campaign.unexpected(verdicts)
     for item in wrong:
         click.echo(
@@ -273,7 +291,5 @@ def _conclude(finished: campaign.Finished, out: Path, expected: Path | None = No
             f"{item.verdict}, expected {item.expected}",
             err=True,
         )
-    for line in campaign.rates(finished):
-        click.echo(line)
     click.echo(f"{len(verdicts)} comparisons, {len(wrong)} not as expected; report: {page}")
     sys.exit(UNEXPECTED if wrong else AS_EXPECTED)

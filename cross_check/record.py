@@ -26,6 +26,13 @@ UNITS = {
     "contact_start": "-",
     "contact_pair": "-",
     "contact_force": "N",
+    "contact_elastic": "N",
+    "contact_limit": "N",
+    "contact_memory": "SI",
+    "temperature": "K",
+    "radius": "m",
+    "body_point": "m",
+    "law_state": "SI",
     "energy_kinetic": "J",
     "energy_elastic": "J",
     "energy_gravity": "J",
@@ -38,6 +45,8 @@ UNITS = {
     "energy_entered": "J",
 }
 CONTACTS = ("contact_start", "contact_pair", "contact_force")
+# What the law of a contact keeps; each stands only where the law has it.
+OF_THE_LAW = ("contact_elastic", "contact_limit", "contact_memory")
 DISSIPATED = ("energy_viscous", "energy_frictional", "energy_rolling", "energy_plastic", "energy_carried")
 REQUIRED = ("step", "time", "position", "velocity", "angular_velocity", "force", "torque")
 
@@ -78,6 +87,8 @@ class Header:
     gravity: list[float]
     schema: int = SCHEMA
     columns: dict[str, str] = field(default_factory=dict[str, str])
+    # Name and unit of each number of the column `law_state`, where there is one.
+    law_state: list[list[str]] | None = None
 
 
 @dataclass(frozen=True)
@@ -132,11 +143,11 @@ class RunRecord:
         for name, column in self.columns.items():
             if name not in UNITS:
                 raise RecordError(f"{where}: unknown column {name} (known: {', '.join(UNITS)})")
-            if name not in CONTACTS and len(column) != samples:
+            if name not in CONTACTS + OF_THE_LAW and len(column) != samples:
                 raise RecordError(f"{where}: column {name} has {len(column)} samples, step has {samples}")
             if not np.all(np.isfinite(column)):
                 bad = int(np.argwhere(~np.isfinite(column))[0][0])
-                place = f"row {bad}" if name in CONTACTS else f"step {int(self.step[bad])}"
+                place = f"row {bad}" if name in CONTACTS + OF_THE_LAW else f"step {int(self.step[bad])}"
                 raise RecordError(f"{where}: column {name} is not a finite number at {place}")
         for name in REQUIRED[2:]:
             if self.columns[name].shape != (samples, count, 3):
@@ -144,7 +155,7 @@ class RunRecord:
                     f"{where}: column {name} has shape {self.columns[name].shape}, expected {(samples, count, 3)}"
                 )
 
-        if any(name in self.columns for name in CONTACTS):
+        if any(name in self.columns for name in CONTACTS + OF_THE_LAW):
             self._check_contacts(where, samples, count)
 
     def _check_contacts(self, where: str, samples: int, count: int) -> None:
@@ -160,6 +171,9 @@ class RunRecord:
             raise RecordError(
                 f"{where}: contact columns have shapes {pair.shape} and {force.shape} for {rows} contacts"
             )
+        for name in OF_THE_LAW:
+            if name in self.columns and len(self.columns[name]) != rows:
+                raise RecordError(f"{where}: column {name} has {len(self.columns[name])} rows for {rows} contacts")
         if rows and (
             pair.min() < 0 or pair[:, 0].max() >= count or pair[:, 1].max() >= count + len(self.header.bodies)
         ):

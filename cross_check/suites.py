@@ -10,6 +10,8 @@ from cross_check.engine import Case, CaseError, Variant, load_case
 
 FOLDER = PACKAGE / "cases"
 SUITES = ("standard", "laws", "collisions", "snapshots", "bulk", "sintering", "fine-powders", "packed-beds")
+# The suite that is a study of its own: its runs branch off from each other (cross_check/sintering).
+STUDY = "sintering"
 
 
 def every_case() -> list[Case]:
