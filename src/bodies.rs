@@ -141,6 +141,11 @@ impl Body {
         }
     }
 
+    /// Takes the body away: it stays where it is and touches nothing.
+    pub fn remove(&mut self) {
+        (self.present, self.drive, self.velocity) = (false, Drive::Constant, Vector::zeros());
+    }
+
     /// Lets the body follow a path from its present point on.
     pub fn set_path(&mut self, amplitude: Vector, course: Course, step: u64) {
         self.origin = self.point;

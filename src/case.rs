@@ -125,7 +125,8 @@ impl Stated {
     /// It cannot be read.
     pub fn ancestor(&self, name: &str) -> Result<Self, Error> {
         let folder = std::path::Path::new(&self.text.file).parent().unwrap_or_else(|| std::path::Path::new(""));
-        let overrides: Vec<String> = self.given.iter().filter_map(|given| given.strip_prefix(START)).map(str::to_owned).collect();
+        let overrides: Vec<String> =
+            self.given.iter().filter_map(|given| given.strip_prefix(START)).map(str::to_owned).collect();
         read(&folder.join(name.replace('-', "_") + ".toml"), &overrides)
     }
 
@@ -138,8 +139,7 @@ impl Stated {
         for variant in &self.variants {
             for seed in variant.seeds() {
                 for refinement in variant.case.time.levels() {
-                    let prepare =
-                        |variant: &sweep::Variant| scene::start::scene(&self, variant, seed, refinement);
+                    let prepare = |variant: &sweep::Variant| scene::start::scene(&self, variant, seed, refinement);
                     match prepare(variant) {
                         Ok(scene) => scenes.push(scene),
                         Err(_) => self.refuse(variant, |variant| prepare(variant).err())?,

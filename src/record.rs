@@ -171,7 +171,15 @@ impl Recorder {
         for column in &columns {
             header["columns"][column.name] = json!(column.unit);
         }
-        Self { header, started: Instant::now(), time_step: scene.time_step, steps: Vec::new(), columns, contacts, extras }
+        Self {
+            header,
+            started: Instant::now(),
+            time_step: scene.time_step,
+            steps: Vec::new(),
+            columns,
+            contacts,
+            extras,
+        }
     }
 
     /// Adds a sample; `climate` is the temperature [K] and what the law shares.
@@ -307,7 +315,8 @@ impl Recorder {
             columns.extend([start, pair, RecordColumn { name: "contact_force", shape: vec![count, 3], values }]);
             if let Some(ContactStates { width, elastic, limit, memory }) = contacts.states {
                 let shapes = [vec![count], vec![count], vec![count, width]];
-                for (((name, _), shape), values) in CONTACT_STATES.into_iter().zip(shapes).zip([elastic, limit, memory]) {
+                for (((name, _), shape), values) in CONTACT_STATES.into_iter().zip(shapes).zip([elastic, limit, memory])
+                {
                     columns.push(RecordColumn { name, shape, values: Values::Real(values) });
                 }
             }

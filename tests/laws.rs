@@ -25,3 +25,5 @@ mod moments;
 mod normals;
 #[path = "laws/scenes.rs"]
 mod scenes;
+#[path = "laws/sintering.rs"]
+mod sintering;

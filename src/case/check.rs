@@ -1,6 +1,7 @@
 //! Checks that the schema cannot express: ranges, names that must exist, what excludes what.
 
 mod bodies;
+mod disks;
 mod model;
 mod sources;
 mod stages;
@@ -62,6 +63,7 @@ pub fn case(case: &Case) -> Vec<Problem> {
     check.materials();
     check.pairs();
     check.bodies();
+    check.disks();
     check.sources();
     check.missing_pairs();
     check.time();

@@ -317,7 +317,8 @@ fn solid(material: &super::schema::Material) -> Material {
     }
 }
 
-fn expansion(material: &super::schema::Material) -> Option<Expansion> {
+/// Thermal expansion of a material.
+pub(super) fn expansion(material: &super::schema::Material) -> Option<Expansion> {
     material.thermal.as_ref().map(|thermal| Expansion {
         coefficient: thermal.expansion.si(),
         reference_temperature: thermal.reference_temperature.si(),

@@ -78,7 +78,14 @@ impl Job {
         if self.scenes.len() == 1 { folder.to_owned() } else { folder.join(scene.member()) }
     }
 
-    fn run_scene(&self, scene: &Scene, states: PathBuf, folder: &Path, progress: &ProgressBar, done: u64) -> Result<(), Error> {
+    fn run_scene(
+        &self,
+        scene: &Scene,
+        states: PathBuf,
+        folder: &Path,
+        progress: &ProgressBar,
+        done: u64,
+    ) -> Result<(), Error> {
         let failed = |reason| Error::Write { file: folder.to_owned(), reason };
         fs::create_dir_all(folder).map_err(failed)?;
         let file = folder.join("checkpoint.npz");

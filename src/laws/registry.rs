@@ -31,13 +31,47 @@ use super::tangential::options::{Dashpot, Options};
 #[serde(tag = "law", rename_all = "snake_case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the laws' own files describe their values")]
 pub enum Normal {
-    Hertz { force_cut: bool },
-    Dmt { force_cut: bool, dashpot_limit: DashpotLimit },
-    Sjkr { force_cut: bool, energy_density: f64 },
-    Sjkr2 { force_cut: bool, energy_density: f64 },
-    LinearSpringDashpot { stiffness: f64, dashpot: f64, force_cut: bool },
-    LudingHysteretic { k1: f64, kp: f64, kc: f64, plasticity_depth: f64, dashpot: f64, force_cut: bool, rule: Rule },
-    LudingSintering { k1: f64, k2: f64, kc: f64, fluid_overlap: f64, dashpot: f64, melting_temperature: f64, melting_range: f64, relaxation_time: f64, cooling: Cooling, sliding: Sliding },
+    Hertz {
+        force_cut: bool,
+    },
+    Dmt {
+        force_cut: bool,
+        dashpot_limit: DashpotLimit,
+    },
+    Sjkr {
+        force_cut: bool,
+        energy_density: f64,
+    },
+    Sjkr2 {
+        force_cut: bool,
+        energy_density: f64,
+    },
+    LinearSpringDashpot {
+        stiffness: f64,
+        dashpot: f64,
+        force_cut: bool,
+    },
+    LudingHysteretic {
+        k1: f64,
+        kp: f64,
+        kc: f64,
+        plasticity_depth: f64,
+        dashpot: f64,
+        force_cut: bool,
+        rule: Rule,
+    },
+    LudingSintering {
+        k1: f64,
+        k2: f64,
+        kc: f64,
+        fluid_overlap: f64,
+        dashpot: f64,
+        melting_temperature: f64,
+        melting_range: f64,
+        relaxation_time: f64,
+        cooling: Cooling,
+        sliding: Sliding,
+    },
 }
 
 /// A tangential law.
@@ -156,7 +190,9 @@ impl Specification {
         let linear = matches!(self.normal, Normal::LinearSpringDashpot { .. } | Normal::LudingHysteretic { .. });
         if matches!(self.normal, Normal::LudingSintering { .. }) {
             return match self.tangential {
-                Tangential::Frictionless | Tangential::LudingSintering { .. } if self.moments == Moments::NONE => Ok(()),
+                Tangential::Frictionless | Tangential::LudingSintering { .. } if self.moments == Moments::NONE => {
+                    Ok(())
+                }
                 Tangential::Frictionless | Tangential::LudingSintering { .. } => {
                     Err(Problem::new("model.moments", "a moment law", "none beside the law luding_sintering"))
                 }
@@ -196,7 +232,17 @@ impl Specification {
                 within("model.normal.plasticity_depth", plasticity_depth, plasticity_depth > 0.0, "above 0")?;
                 within("model.normal.dashpot", dashpot, dashpot >= 0.0, "at least 0 kg/s")?;
             }
-            Normal::LudingSintering { k1, k2, kc, fluid_overlap, dashpot, melting_temperature, melting_range, relaxation_time, .. } => {
+            Normal::LudingSintering {
+                k1,
+                k2,
+                kc,
+                fluid_overlap,
+                dashpot,
+                melting_temperature,
+                melting_range,
+                relaxation_time,
+                ..
+            } => {
                 within("model.normal.k1", k1, k1 > 0.0, "above 0 N/m")?;
                 within("model.normal.k2", k2, k2 > k1, "above k1")?;
                 within("model.normal.kc", kc, kc >= 0.0, "at least 0 N/m")?;

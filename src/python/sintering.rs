@@ -16,8 +16,11 @@ fn refuse(reason: impl ToString) -> PyErr {
 
 fn law(json: &str) -> PyResult<LudingSintering> {
     let normal: Stated = serde_json::from_str(json).map_err(refuse)?;
-    let model =
-        SceneModel { normal, tangential: TangentialLaw::Frictionless {}, moments: crate::case::model::MomentLaw::Free {} };
+    let model = SceneModel {
+        normal,
+        tangential: TangentialLaw::Frictionless {},
+        moments: crate::case::model::MomentLaw::Free {},
+    };
     let laws = model.specification(&Mirror::default()).map_err(refuse)?;
     laws.normal.sintering().ok_or_else(|| refuse("law: expected luding_sintering"))
 }
@@ -90,8 +93,7 @@ pub fn sintering_stiffness<'py>(
     let (mut shared, mut before) = ((0.0, 0.0), temperatures.first().copied().unwrap_or_default());
     let mut found = Vec::with_capacity(steps.len());
     for ((temperature, time), step) in temperatures.into_iter().zip(times).zip(steps) {
-        let surroundings =
-            Surroundings { temperature, temperature_before: before, relaxation_time: Some(time) };
+        let surroundings = Surroundings { temperature, temperature_before: before, relaxation_time: Some(time) };
         law.advance(&mut shared, &surroundings, step);
         before = temperature;
         found.push(shared.0);

@@ -97,8 +97,7 @@ impl<M: ContactModel> Simulation<M> {
         climate.now.temperature_before = climate.now.temperature;
         let Some(Ramp { from, to, first, steps }) = climate.ramp else { return };
         let done = self.step.saturating_sub(first);
-        climate.now.temperature =
-            if done >= steps { to } else { from + (to - from) * (done as f64 / steps as f64) };
+        climate.now.temperature = if done >= steps { to } else { from + (to - from) * (done as f64 / steps as f64) };
         if done >= steps {
             climate.ramp = None;
         }

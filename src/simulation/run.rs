@@ -207,7 +207,7 @@ impl<M: ContactModel> Simulation<M> {
                 SceneAction::SetMotion { body, motion } => self.bodies[*body].set_motion(motion, first),
                 SceneAction::SetGravity { value } => self.gravity = (*value).into(),
                 SceneAction::Remove { body } => {
-                    self.bodies[*body].present = false;
+                    self.bodies[*body].remove();
                     self.stale = true;
                 }
                 SceneAction::Strain { body, from, strain } => {

@@ -106,12 +106,7 @@ impl<M: ContactModel> Simulation<M> {
     ///
     /// # Errors
     /// The setup is inconsistent, or the checkpoint does not fit it.
-    pub fn restore(
-        setup: &Setup,
-        model: M,
-        from: &Checkpoint,
-        stages: &[(u64, &SceneStage)],
-    ) -> Result<Self, Error> {
+    pub fn restore(setup: &Setup, model: M, from: &Checkpoint, stages: &[(u64, &SceneStage)]) -> Result<Self, Error> {
         let mut simulation = Self::unevaluated(setup, model)?;
         stages.iter().for_each(|(first, stage)| simulation.begin_stage(stage, *first));
         simulation.stale = false;

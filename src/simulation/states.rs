@@ -35,8 +35,7 @@ impl<'a> States<'a> {
             Some(folder) if self.steps.contains(&step) => {
                 let mut state = Checkpoint::default();
                 simulation.save(&mut state);
-                std::fs::create_dir_all(folder)
-                    .map_err(|reason| Error::Write { file: folder.to_owned(), reason })?;
+                std::fs::create_dir_all(folder).map_err(|reason| Error::Write { file: folder.to_owned(), reason })?;
                 state.write(&file(folder, &self.hash, step), &self.hash)
             }
             _ => Ok(()),

@@ -127,6 +127,11 @@ impl Checker<'_> {
         let case = self.case;
         if let Some(temperature) = case.temperature {
             self.positive("temperature", temperature);
+            let expansions = case.materials.iter().filter_map(crate::case::scene::expansion);
+            if expansions.into_iter().any(|expansion| expansion.factor(temperature.si()) <= 0.0) {
+                let value = format!("{} K", temperature.si());
+                self.add("temperature", value, "thermal expansion leaves no radius there");
+            }
         }
         let heated =
             |action: &Action| matches!(action, Action::RampTemperature { target: HeatTarget::Particles {}, .. });

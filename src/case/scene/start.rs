@@ -66,7 +66,11 @@ fn step(from: &StartFrom, scene: &Scene) -> Result<u64, Problem> {
                 let allowed = format!("the stage {} lasts {length:e} s", stage.name);
                 return Err(Problem::new("start_from.at", format!("{:e} s", at.si()), allowed));
             }
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the steps of a stage")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "at most the steps of a stage"
+            )]
             return Ok(first + steps as u64);
         }
         first += stage.steps;

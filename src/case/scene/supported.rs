@@ -33,10 +33,7 @@ pub fn supported(case: &Case) -> Result<(), Problem> {
     }
     stages(&case.stages)?;
     for (i, observable) in case.observables.iter().enumerate() {
-        if matches!(
-            observable.measure,
-            Measure::Temperature { .. } | Measure::HeatFlow { .. }
-        ) {
+        if matches!(observable.measure, Measure::Temperature { .. } | Measure::HeatFlow { .. }) {
             let kind = tag(&observable.measure, "kind");
             return refuse(format!("observables.{i}.measure.kind"), kind, "measures without heat");
         }

@@ -39,10 +39,12 @@ pub fn room(case: &Case, scene: &Scene) -> Result<(), Problem> {
 /// Refuses temperatures at which the law or a radius vanishes.
 pub fn heat(case: &Case, scene: &Scene, laws: &Specification) -> Result<(), Problem> {
     let stages = scene.stages.iter().enumerate();
-    let ramps = stages.flat_map(|(i, stage)| stage.actions.iter().filter_map(move |action| match action {
-        SceneAction::RampTemperature { to } => Some((format!("stages.{i}.actions"), *to)),
-        _ => None,
-    }));
+    let ramps = stages.flat_map(|(i, stage)| {
+        stage.actions.iter().filter_map(move |action| match action {
+            SceneAction::RampTemperature { to } => Some((format!("stages.{i}.actions"), *to)),
+            _ => None,
+        })
+    });
     let start = case.temperature.map(|temperature| ("temperature".to_owned(), temperature.si()));
     for (key, temperature) in start.into_iter().chain(ramps) {
         let value = || format!("{temperature} K");
