@@ -69,9 +69,10 @@ def measure(observables: str, context: str, columns: dict[str, Any]) -> dict[str
     `observables` is a JSON list of `{"name": ..., "measure": {"kind": ...}}`, as in a case; other keys do not matter.
     `context` is a JSON object with `radius` [m], `mass` [kg], `moment_of_inertia` [kg m2] and optionally `material` of
     the N particles, `gravity` [m/s2], `domain` and the B `bodies` as in a scene, and optionally `friction`: a list of
-    `{"between": [material, material], "value": ...}`. `columns` are those of a record (docs/formats.md): `time`
-    (T,) and `position` (T, N, 3) always, the others where an observable needs them; `body_point` (T, B, 3) [m] where
-    bodies move and `radius` (T, N) [m] where radii change. Values that are not defined are NaN.
+    `{"between": [material, material], "value": ...}`, and `disks`: true for disks as high as the domain along y.
+    `columns` are those of a record (docs/formats.md): `time` (T,) and `position` (T, N, 3) always, the others where an
+    observable needs them; `body_point` (T, B, 3) [m] where bodies move and `radius` (T, N) [m] where radii change.
+    Values that are not defined are NaN.
 
     Raises `ValueError` for JSON, shapes, values and columns that do not fit, and for an observable that needs a column
     that is not there.
