@@ -27,7 +27,7 @@ from cross_check.compare.expectations import expect, rules
 from cross_check.compare.outcome import Outcome
 from cross_check.compare.verdicts import FULL_ONLY, Comparison
 from cross_check.curves import curves, drawn, sweeps
-from cross_check.engine import Case, CaseError, load_case
+from cross_check.engine import Case, CaseError, case_file, load_case
 from cross_check.histories import histories
 from cross_check.record import RecordError, read
 from cross_check.report.campaign import Campaign, CaseInfo, CurveSet, SourceRun
@@ -203,11 +203,21 @@ def keep(finished: Finished, folder: Path) -> None:
 
 
 def _copy(case: Case, folder: Path) -> Path:
-    """Copies a case file into the folder, so that the folder can be moved; returns its place in there."""
-    place = Path("cases") / f"{case.name}.toml"
+    """Copies a case file into the folder, so that the folder can be moved; returns its place in there.
+
+    The cases that it starts from stand beside it under the names by which the engine finds them.
+    """
+    place = Path("cases") / case_file(case.name)
     (folder / place).parent.mkdir(parents=True, exist_ok=True)
-    if not (folder / place).exists() or not case.path.samefile(folder / place):
-        shutil.copyfile(case.path, folder / place)
+    start = case.variants[0].scenes[0].start
+    sources = {place: case.path}
+    while start is not None:
+        name = case_file(start.scene.case)
+        sources[Path("cases") / name] = case.path.parent / name
+        start = start.scene.start
+    for target, source in sources.items():
+        if not (folder / target).exists() or not source.samefile(folder / target):
+            shutil.copyfile(source, folder / target)
     return place
 
 

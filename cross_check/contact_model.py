@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 
@@ -43,6 +43,26 @@ class LudingHysteretic(NormalModel):
     dashpot: float
 
 
+@dataclass(frozen=True, kw_only=True)
+class LudingSintering(NormalModel):
+    """`luding_sintering`: stiffnesses k1, k2, kc [N/m] when cold, fluid overlap [m], dashpot constant [kg/s].
+
+    Melting temperature and the width of its range [K], relaxation time [s], and the `cooling` rule: `lagged` or
+    `implicit`. Its force may pull: it has no cut, and states none.
+    """
+
+    k1: float
+    k2: float
+    kc: float
+    fluid_overlap: float
+    dashpot: float
+    melting_temperature: float
+    melting_range: float
+    relaxation_time: float
+    cooling: str
+    force_cut: str = "off"
+
+
 @dataclass(frozen=True)
 class TangentialModel:
     """Tangential law by name; `frictionless` has no values."""
@@ -63,6 +83,20 @@ class LinearHistory(TangentialModel):
 
     stiffness_ratio: float
     dashpot: float
+
+
+@dataclass(frozen=True)
+class SinteringFriction(TangentialModel):
+    """`luding_sintering`: stiffness as a share of the unloading stiffness [-] and dashpot constant [kg/s].
+
+    `friction` `softens` with heat or is `constant`; a contact that slides pulls as before (`sliding` `off`), not at all
+    (`cut`), or forgets what let it pull (`brittle`).
+    """
+
+    stiffness_ratio: float
+    dashpot: float
+    friction: str
+    sliding: str
 
 
 @dataclass(frozen=True)
@@ -139,8 +173,13 @@ _NORMAL: dict[str, type[NormalModel]] = {
     "sjkr": AreaCohesion,
     "sjkr2": AreaCohesion,
     "luding_hysteretic": LudingHysteretic,
+    "luding_sintering": LudingSintering,
 }
-_TANGENTIAL: dict[str, type[TangentialModel]] = {"mindlin": Mindlin, "linear_history": LinearHistory}
+_TANGENTIAL: dict[str, type[TangentialModel]] = {
+    "mindlin": Mindlin,
+    "linear_history": LinearHistory,
+    "luding_sintering": SinteringFriction,
+}
 
 
 def _moments(raw: dict[str, Any]) -> MomentModel:
@@ -165,3 +204,24 @@ def model_from_json(raw: dict[str, Any]) -> Model:
         _TANGENTIAL.get(tangential["law"], TangentialModel)(**tangential),
         _moments(raw.get("moments", {"law": FREE.law})),
     )
+
+
+def model_to_json(model: Model) -> dict[str, Any]:
+    """The laws as the engine reads them; a frictionless or free one is not stated."""
+    raw = asdict(model)
+    if isinstance(model.normal, LudingSintering):
+        del raw["normal"]["force_cut"]
+    if model.tangential == FRICTIONLESS:
+        del raw["tangential"]
+    if model.moments == FREE:
+        del raw["moments"]
+    elif "stiffness" in raw["moments"]:
+        parts = {name: variant_to_json(raw["moments"][name]) for name in ("stiffness", "dashpot", "twisting")}
+        raw["moments"] |= parts
+    return raw
+
+
+def variant_to_json(raw: dict[str, Any]) -> dict[str, Any]:
+    """A tagged variant without the values that it does not have; a constant twisting spring states its missing arm."""
+    kept = {key: value for key, value in raw.items() if value is not None}
+    return {**kept, "arm": raw["arm"]} if "arm" in raw and raw["kind"] == "constant" else kept

@@ -21,6 +21,8 @@ from cross_check.scene import Scene, from_json
 
 #: Names a program to read cases and run scenes with, in place of the module: engines with planted faults are such.
 PROGRAM_VARIABLE = "CROSSGRAIN_NATIVE"
+# Where the parts of an expanded case name their variant.
+VARIANT_KEYS = {"variants": "name", "scenes": "variant"}
 
 
 class CaseError(Exception):
@@ -108,24 +110,39 @@ def _gate(raw: dict[str, Any]) -> Gate:
     return Gate(**typed)
 
 
-def _scenes(path: Path, overrides: list[str]) -> dict[str, Any]:
+def _scenes(path: Path, overrides: list[str], variant: str | None) -> dict[str, Any]:
     """The case with its variants and scenes as the engine makes them. Raises CaseError."""
     program = os.environ.get(PROGRAM_VARIABLE)
     if program is None:
         try:
-            return json.loads(crossgrain.load_case(path, overrides))
+            return json.loads(crossgrain.load_case(path, overrides, variant))
         except ValueError as error:
             raise CaseError(str(error)) from error
     command = [program, "scenes", str(path), *(word for item in overrides for word in ("--set", item))]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)  # noqa: S603
     if done.returncode != 0:
         raise CaseError(done.stderr.strip().removeprefix("error: "))
-    return json.loads(done.stdout)
+    found = json.loads(done.stdout)
+    if variant is None:
+        return found
+    names = [item["name"] for item in found["variants"]]
+    if variant not in names:
+        raise CaseError(f"{path}: no variant {variant} (known: {' '.join(names)})")
+    kept = {key: [item for item in found[key] if item[name] == variant] for key, name in VARIANT_KEYS.items()}
+    return {**found, **kept}
 
 
-def load_case(path: Path, overrides: list[str] | None = None) -> Case:
-    """Reads, checks and expands a case file. Raises CaseError."""
-    raw = _scenes(path, overrides or [])
+def case_file(name: str) -> str:
+    """The name of the file in which the engine looks for a case that another one starts from."""
+    return name.replace("-", "_") + ".toml"
+
+
+def load_case(path: Path, overrides: list[str] | None = None, variant: str | None = None) -> Case:
+    """Reads, checks and expands a case file, or one variant of it. Raises CaseError.
+
+    `overrides` are `key=value`; those that begin with `start.` are for the case that it starts from.
+    """
+    raw = _scenes(path, overrides or [], variant)
     members: dict[str, dict[int | None, list[Scene]]] = {}
     for item in raw["scenes"]:
         members.setdefault(item["variant"], {}).setdefault(item["seed"], []).append(from_json(item))

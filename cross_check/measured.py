@@ -9,7 +9,7 @@ import hashlib
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -76,12 +76,12 @@ class Measured:
         return self.time[chosen], self[observable][chosen]
 
     def values(self, observable: str, stage: str, average: float) -> Array:
-        """Means over the last share `average` (above 0, up to 1) of the samples of a stage, shape () or (K,).
+        """Means over the last share `average` (0 to 1) of the samples of a stage, shape () or (K,).
 
-        A share of less than one sample is one sample. Of a list, parts that are not defined are NaN.
+        A share of less than one sample, such as 0, is the last sample. Of a list, parts that are not defined are NaN.
         """
-        if not 0.0 < average <= 1.0:
-            raise RecordError(f"{self.name}: average {average}, expected a share above 0 and up to 1")
+        if not 0.0 <= average <= 1.0:
+            raise RecordError(f"{self.name}: average {average}, expected a share from 0 to 1")
         _, values = self.curve(observable, stage)
         # Rounding must not turn 0.1 of 100 samples into 11.
         count = max(1, math.ceil(average * len(values) - 1e-9))
@@ -140,7 +140,7 @@ class Measured:
         """Checks the record and writes `measured.json` and `series.npz` into `folder`."""
         self.check(str(folder))
         folder.mkdir(parents=True, exist_ok=True)
-        header = asdict(self.header)
+        header = self.header.to_dict()
         columns = {key: np.asarray(header.pop(key), dtype=float) for key in PER_PARTICLE}
         np.savez_compressed(
             folder / "series.npz", allow_pickle=False, time=self.time, stage=self.stage, **columns, **self.series

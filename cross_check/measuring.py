@@ -16,7 +16,7 @@ from cross_check.scene import Scene
 
 # The stage of a run that has none.
 RUN = "run"
-COLUMNS = ("time", "position", "angular_velocity", "force", "body_force")
+COLUMNS = ("time", "position", "angular_velocity", "force", "body_force", "body_point", "radius")
 CONTACTS = ("contact_start", "contact_pair", "contact_force")
 
 
@@ -24,7 +24,8 @@ def measure(scene: Scene, record: RunRecord) -> Measured:
     """The observables of a scene over the samples of a record. Raises CaseError where one is not defined there."""
     columns = {name: record[name] for name in (*COLUMNS, *CONTACTS) if name in record.columns}
     columns["velocity"] = record.synchronized_velocity()
-    columns["body_point"] = body_points(scene, record["time"])
+    if "body_point" not in columns:
+        columns["body_point"] = body_points(scene, record["time"])
     names = [stage.name for stage in scene.stages]
     series: dict[str, Array] = {}
     # Pairs change from stage to stage: an observable sees those of its own.
@@ -46,7 +47,17 @@ def measure(scene: Scene, record: RunRecord) -> Measured:
 
 
 def body_points(scene: Scene, time: Array) -> Array:
-    """Points of the bodies at the sampled times, shape (T, B, 3) [m]: prescribed velocities over the stages so far."""
+    """Points of the bodies at the sampled times, shape (T, B, 3) [m]: prescribed velocities over the stages so far.
+
+    Raises CaseError where a body moves otherwise: only a record that has the points tells where it is.
+    """
+    if scene.start is not None:
+        raise CaseError(
+            f"{scene.name}: the record has no column body_point, and bodies begin where those of another did"
+        )
+    for name, kind in scene.motions():
+        if kind not in ("fixed", "prescribed"):
+            raise CaseError(f"{scene.name}: the record has no column body_point, and the motion of {name} is {kind}")
     ends = np.array(scene.stage_ends(), dtype=np.float64) * scene.time_step
     begins = np.concatenate(([0.0], ends[:-1]))
     points = np.zeros((len(time), len(scene.bodies), 3))
@@ -68,6 +79,7 @@ def _system(scene: Scene) -> str:
         "material": [particle.material for particle in scene.particles],
         "gravity": scene.gravity,
         "domain": asdict(scene.domain),
+        "disks": scene.disk_height is not None,
         "bodies": [
             {"name": body.name, "material": body.material, "shape": asdict(body.shape)} for body in scene.bodies
         ],

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from cross_check.contact_model import RollingDashpot, RollingStiffness
+from cross_check.contact_model import RollingDashpot, RollingStiffness, variant_to_json
 
 
 @dataclass(frozen=True)
@@ -111,12 +111,6 @@ def mirror_to_json(mirror: Mirror) -> dict[str, Any]:
     if "rolling" in raw and raw["rolling"]["stiffness"]["kind"] == "normal":
         raw["rolling"]["stiffness"]["factor"] = raw["rolling"]["stiffness"].pop("value")
     return raw
-
-
-def variant_to_json(raw: dict[str, Any]) -> dict[str, Any]:
-    """A tagged variant without the values that it does not have; a constant twisting spring states its missing arm."""
-    kept = {key: value for key, value in raw.items() if value is not None}
-    return {**kept, "arm": raw["arm"]} if "arm" in raw and raw["kind"] == "constant" else kept
 
 
 def mirror_from_json(raw: dict[str, Any]) -> Mirror:

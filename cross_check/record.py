@@ -23,16 +23,16 @@ UNITS = {
     "force": "N",
     "torque": "N m",
     "body_force": "N",
+    "body_point": "m",
+    "temperature": "K",
+    "radius": "m",
+    "law_state": "SI",
     "contact_start": "-",
     "contact_pair": "-",
     "contact_force": "N",
     "contact_elastic": "N",
     "contact_limit": "N",
     "contact_memory": "SI",
-    "temperature": "K",
-    "radius": "m",
-    "body_point": "m",
-    "law_state": "SI",
     "energy_kinetic": "J",
     "energy_elastic": "J",
     "energy_gravity": "J",
@@ -45,8 +45,8 @@ UNITS = {
     "energy_entered": "J",
 }
 CONTACTS = ("contact_start", "contact_pair", "contact_force")
-# What the law of a contact keeps; each stands only where the law has it.
-OF_THE_LAW = ("contact_elastic", "contact_limit", "contact_memory")
+# What contacts remember and the parts of their forces, which stand beside the others or not at all.
+CONTACT_STATES = ("contact_elastic", "contact_limit", "contact_memory")
 DISSIPATED = ("energy_viscous", "energy_frictional", "energy_rolling", "energy_plastic", "energy_carried")
 REQUIRED = ("step", "time", "position", "velocity", "angular_velocity", "force", "torque")
 
@@ -66,7 +66,10 @@ class Code:
 
 @dataclass(frozen=True)
 class Header:
-    """What a record is a record of. Times in s, masses in kg, radii in m."""
+    """What a record is a record of. Times in s, masses in kg, radii in m.
+
+    `law_state` names the numbers of the column of that name, with their units.
+    """
 
     source: str
     case: str
@@ -87,8 +90,14 @@ class Header:
     gravity: list[float]
     schema: int = SCHEMA
     columns: dict[str, str] = field(default_factory=dict[str, str])
-    # Name and unit of each number of the column `law_state`, where there is one.
-    law_state: list[list[str]] | None = None
+    law_state: list[list[str]] = field(default_factory=list[list[str]])
+
+    def to_dict(self) -> dict[str, Any]:
+        """The header as files hold it."""
+        raw = asdict(self)
+        if not self.law_state:
+            del raw["law_state"]
+        return raw
 
 
 @dataclass(frozen=True)
@@ -143,19 +152,21 @@ class RunRecord:
         for name, column in self.columns.items():
             if name not in UNITS:
                 raise RecordError(f"{where}: unknown column {name} (known: {', '.join(UNITS)})")
-            if name not in CONTACTS + OF_THE_LAW and len(column) != samples:
+            of_contacts = name in (*CONTACTS, *CONTACT_STATES)
+            if not of_contacts and len(column) != samples:
                 raise RecordError(f"{where}: column {name} has {len(column)} samples, step has {samples}")
             if not np.all(np.isfinite(column)):
                 bad = int(np.argwhere(~np.isfinite(column))[0][0])
-                place = f"row {bad}" if name in CONTACTS + OF_THE_LAW else f"step {int(self.step[bad])}"
+                place = f"row {bad}" if of_contacts else f"step {int(self.step[bad])}"
                 raise RecordError(f"{where}: column {name} is not a finite number at {place}")
-        for name in REQUIRED[2:]:
-            if self.columns[name].shape != (samples, count, 3):
-                raise RecordError(
-                    f"{where}: column {name} has shape {self.columns[name].shape}, expected {(samples, count, 3)}"
-                )
-
-        if any(name in self.columns for name in CONTACTS + OF_THE_LAW):
+        shapes = dict.fromkeys(REQUIRED[2:], (samples, count, 3))
+        shapes |= dict.fromkeys(("body_force", "body_point"), (samples, len(self.header.bodies), 3))
+        shapes |= {"temperature": (samples,), "radius": (samples, count)}
+        shapes |= {"law_state": (samples, len(self.header.law_state))}
+        for name, shape in shapes.items():
+            if name in self.columns and self.columns[name].shape != shape:
+                raise RecordError(f"{where}: column {name} has shape {self.columns[name].shape}, expected {shape}")
+        if any(name in self.columns for name in (*CONTACTS, *CONTACT_STATES)):
             self._check_contacts(where, samples, count)
 
     def _check_contacts(self, where: str, samples: int, count: int) -> None:
@@ -171,20 +182,28 @@ class RunRecord:
             raise RecordError(
                 f"{where}: contact columns have shapes {pair.shape} and {force.shape} for {rows} contacts"
             )
-        for name in OF_THE_LAW:
-            if name in self.columns and len(self.columns[name]) != rows:
-                raise RecordError(f"{where}: column {name} has {len(self.columns[name])} rows for {rows} contacts")
         if rows and (
             pair.min() < 0 or pair[:, 0].max() >= count or pair[:, 1].max() >= count + len(self.header.bodies)
         ):
             raise RecordError(f"{where}: column contact_pair names particles or bodies that are not there")
+        if any(name in self.columns for name in CONTACT_STATES):
+            self._check_contact_states(where, rows)
+
+    def _check_contact_states(self, where: str, rows: int) -> None:
+        """Each contact has an elastic force, a limit of friction and a list of numbers that it remembers."""
+        for name in CONTACT_STATES:
+            if name not in self.columns:
+                raise RecordError(f"{where}: column {name} is missing")
+            shape, dimensions = self.columns[name].shape, 2 if name == "contact_memory" else 1
+            if len(shape) != dimensions or shape[0] != rows:
+                raise RecordError(f"{where}: column {name} has shape {shape} for {rows} contacts")
 
     def write(self, folder: Path, *, compress: bool = True) -> None:
         """Writes `record.json` and `columns.npz` into `folder`."""
         folder.mkdir(parents=True, exist_ok=True)
         save = np.savez_compressed if compress else np.savez
         save(folder / "columns.npz", allow_pickle=False, **self.columns)
-        header = asdict(self.header) | {"columns": {name: UNITS[name] for name in self.columns}}
+        header = self.header.to_dict() | {"columns": {name: UNITS[name] for name in self.columns}}
         (folder / "record.json").write_text(json.dumps(header, indent=1, sort_keys=True) + "\n")
 
 

@@ -5,16 +5,22 @@ from __future__ import annotations
 import hashlib
 import itertools
 import json
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from cross_check.contact_model import FREE, FRICTIONLESS, Model, NormalModel, model_from_json
-from cross_check.mirror_options import Mirror, mirror_from_json, mirror_to_json, variant_to_json
+from cross_check.bodies import Body, Cylinder, Motion, Plane, Shape, body_from_json, body_to_json
+from cross_check.contact_model import Model, NormalModel, model_from_json, model_to_json, variant_to_json
+from cross_check.materials import Material, Pair, material_from_json, material_to_json, pair_from_json, pair_to_json
+from cross_check.mirror_options import Mirror, mirror_from_json, mirror_to_json
+from cross_check.stages import Action, SetGravity, SetMotion, SetPair, Stage, Strain, stage_from_json, stage_to_json
+from cross_check.vector import Vector, vector
 
 __all__ = [
     "Action",
     "Body",
     "Course",
+    "Cylinder",
     "Domain",
     "Drive",
     "Leg",
@@ -25,17 +31,17 @@ __all__ = [
     "NormalModel",
     "Pair",
     "Particle",
+    "Plane",
     "Scene",
     "SetGravity",
     "SetMotion",
     "SetPair",
     "Shape",
     "Stage",
+    "Start",
     "Vector",
     "from_json",
 ]
-
-Vector = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -48,78 +54,8 @@ class Domain:
 
 
 @dataclass(frozen=True)
-class Material:
-    """A material; `young` [Pa], `poisson` [-] and `density` [kg/m3] are None where `rigid`."""
-
-    name: str
-    rigid: bool
-    young: float | None
-    poisson: float | None
-    density: float | None
-
-
-@dataclass(frozen=True)
-class Pair:
-    """Mixed values of two materials: E* and G* [Pa], fraction of critical damping [-], restitution as asked [-].
-
-    Coefficients of friction, rolling and twisting friction [-] and work of adhesion [J/m2] are None where no law of the
-    model asks for them.
-    """
-
-    between: tuple[int, int]
-    effective_young: float
-    effective_shear: float | None
-    damping_ratio: float
-    restitution: float | None
-    friction: float | None = None
-    rolling_friction: float | None = None
-    twisting_friction: float | None = None
-    work_of_adhesion: float | None = None
-
-
-@dataclass(frozen=True)
-class Plane:
-    """A plane through `point` [m]; the unit `normal` points into the region of the particles."""
-
-    point: Vector
-    normal: Vector
-    kind: str = "plane"
-
-
-@dataclass(frozen=True)
-class Cylinder:
-    """The inside of a cylinder without end: a `point` of its axis [m], the unit `axis` and its `radius` [m]."""
-
-    point: Vector
-    axis: Vector
-    radius: float
-    kind: str = "cylinder"
-
-
-Shape = Plane | Cylinder
-
-
-@dataclass(frozen=True)
-class Motion:
-    """`fixed`, or `prescribed` with `velocity` [m/s]."""
-
-    kind: str
-    velocity: Vector | None = None
-
-
-@dataclass(frozen=True)
-class Body:
-    """A wall: name, index of its material, shape and motion."""
-
-    name: str
-    material: int
-    shape: Shape
-    motion: Motion
-
-
-@dataclass(frozen=True)
 class Particle:
-    """A sphere at t = 0: SI units, velocities synchronized with positions."""
+    """A sphere, or a disk where the scene has such, at t = 0: SI units, velocities synchronized with positions."""
 
     material: int
     radius: float
@@ -160,43 +96,11 @@ class Drive:
 
 
 @dataclass(frozen=True)
-class SetPair:
-    """Gives a pair of materials new values."""
+class Start:
+    """The state of another scene after `step` steps, from which a scene starts."""
 
-    pair: Pair
-    do: str = "set_pair"
-
-
-@dataclass(frozen=True)
-class SetMotion:
-    """Gives a body, by index, another motion."""
-
-    body: int
-    motion: Motion
-    do: str = "set_motion"
-
-
-@dataclass(frozen=True)
-class SetGravity:
-    """Changes gravity [m/s2]."""
-
-    value: Vector
-    do: str = "set_gravity"
-
-
-Action = SetPair | SetMotion | SetGravity
-
-
-@dataclass(frozen=True)
-class Stage:
-    """A part of the run: its name, number of steps, and what changes at its beginning.
-
-    Actions take effect after the sample of the step at which the stage begins, before the next step.
-    """
-
-    name: str
-    steps: int
-    actions: tuple[Action, ...] = ()
+    scene: Scene
+    step: int
 
 
 @dataclass(frozen=True)
@@ -204,8 +108,10 @@ class Scene:
     """One runnable problem with nothing left to resolve.
 
     `stages` is empty where nothing changes but driven particles. `contacts` says whether samples hold contact forces,
-    `energies` whether they hold the ledger.
-    `observables` are measures as the case states them, in SI (docs/case-keys.md).
+    `contact_states` whether also what contacts remember, `energies` whether they hold the ledger.
+    `observables` are measures as the case states them, in SI (docs/case-keys.md). `disk_height` [m] is None for
+    spheres, `temperature` [K], at which the radii stand, where the case states none. `start` is the state of another
+    scene in which particles and walls begin; the particles here are then those of its own start.
     """
 
     schema: int
@@ -228,13 +134,24 @@ class Scene:
     drives: tuple[Drive, ...] = ()
     stages: tuple[Stage, ...] = ()
     contacts: bool = False
+    contact_states: bool = False
     energies: bool = True
     observables: tuple[dict[str, Any], ...] = ()
+    disk_height: float | None = None
+    temperature: float | None = None
+    start: Start | None = None
 
     @property
-    def sample_steps(self) -> range:
-        """The sampled steps."""
-        return range(0, self.steps + 1, self.output_every)
+    def sample_steps(self) -> Sequence[int]:
+        """The sampled steps: the first, and in every stage multiples of its interval from its beginning on."""
+        if not any(stage.output_every for stage in self.stages):
+            return range(0, self.steps + 1, self.output_every)
+        found, begin = [0], 0
+        for stage in self.stages:
+            every = stage.output_every or self.output_every
+            found += range(begin + every, begin + stage.steps + 1, every)
+            begin += stage.steps
+        return found
 
     def stage_ends(self) -> list[int]:
         """Last step of every stage; that of the run where it has none."""
@@ -248,16 +165,28 @@ class Scene:
                 scene = scene.after(action)
         return scene
 
+    def motions(self) -> list[tuple[str, str]]:
+        """Bodies by name and the kinds of their motions, at the start and in every stage: `strain` is one, too."""
+        found = [(body.name, body.motion.kind) for body in self.bodies]
+        for action in (action for stage in self.stages for action in stage.actions):
+            if isinstance(action, SetMotion):
+                found.append((self.bodies[action.body].name, action.motion.kind))
+            elif isinstance(action, Strain):
+                found.append((self.bodies[action.body].name, action.do))
+        return found
+
     def after(self, action: Action) -> Scene:
-        """The scene with what an action changes."""
+        """The scene with what an action changes of it: others change the state of the run."""
         if isinstance(action, SetGravity):
             return replace(self, gravity=action.value)
         if isinstance(action, SetMotion):
             bodies = list(self.bodies)
             bodies[action.body] = replace(bodies[action.body], motion=action.motion)
             return replace(self, bodies=tuple(bodies))
-        old = self.pair(*action.pair.between)
-        return replace(self, pairs=tuple(action.pair if pair is old else pair for pair in self.pairs))
+        if isinstance(action, SetPair):
+            old = self.pair(*action.pair.between)
+            return replace(self, pairs=tuple(action.pair if pair is old else pair for pair in self.pairs))
+        return self
 
     @property
     def name(self) -> str:
@@ -279,59 +208,44 @@ class Scene:
         """This scene with another rule for the cut of the normal force at zero."""
         return replace(self, model=replace(self.model, normal=replace(self.model.normal, force_cut=force_cut)))
 
+    def to_dict(self) -> dict[str, Any]:
+        """The scene as the engine reads and writes it."""
+        plain = ("schema", "case", "variant", "seed", "refinement", "level", "time_step", "steps", "output_every")
+        raw: dict[str, Any] = {name: getattr(self, name) for name in plain}
+        raw |= {
+            "gravity": self.gravity,
+            "domain": asdict(self.domain),
+            "materials": [material_to_json(material) for material in self.materials],
+            "pairs": [pair_to_json(pair) for pair in self.pairs],
+            "model": model_to_json(self.model),
+            "mirror": mirror_to_json(self.mirror),
+            "bodies": [body_to_json(body) for body in self.bodies],
+            "particles": [asdict(particle) for particle in self.particles],
+        }
+        optional: dict[str, Any] = {
+            "drives": [_drive_to_json(drive) for drive in self.drives],
+            "stages": [stage_to_json(stage) for stage in self.stages],
+            "contacts": self.contacts,
+            "contact_states": self.contact_states,
+            "observables": self.observables,
+        }
+        raw |= {name: value for name, value in optional.items() if value}
+        if not self.energies:
+            raw["energies"] = False
+        for name in ("disk_height", "temperature"):
+            if getattr(self, name) is not None:
+                raw[name] = getattr(self, name)
+        if self.start is not None:
+            raw["start"] = {"scene": self.start.scene.to_dict(), "step": self.start.step}
+        return raw
+
     def to_json(self) -> str:
-        """The scene as the engine reads it."""
-        raw = asdict(self)
-        raw["pairs"] = [_pair_to_json(pair) for pair in self.pairs]
-        raw["model"] = _model_to_json(self.model)
-        raw["mirror"] = mirror_to_json(self.mirror)
-        if self.drives:
-            raw["drives"] = [_drive_to_json(drive) for drive in self.drives]
-        if self.stages:
-            raw["stages"] = [
-                {"name": stage.name, "steps": stage.steps, "actions": [_action_to_json(item) for item in stage.actions]}
-                for stage in self.stages
-            ]
-        for optional in ("drives", "stages", "contacts", "observables"):
-            if not raw[optional]:
-                del raw[optional]
-        if self.energies:
-            del raw["energies"]
-        return json.dumps(raw, sort_keys=True)
+        """The scene as text; the same scene has the same bytes."""
+        return json.dumps(self.to_dict(), sort_keys=True)
 
     def digest(self) -> str:
         """Hash of the whole scene, hexadecimal."""
         return hashlib.blake2b(self.to_json().encode(), digest_size=16).hexdigest()
-
-
-# Values of a pair that stand only where a law asks for them.
-_OPTIONAL = ("friction", "rolling_friction", "twisting_friction", "work_of_adhesion")
-
-
-def _pair_to_json(pair: Pair) -> dict[str, Any]:
-    return {key: value for key, value in asdict(pair).items() if key not in _OPTIONAL or value is not None}
-
-
-def _model_to_json(model: Model) -> dict[str, Any]:
-    """The laws; a frictionless or free one is not stated."""
-    raw = asdict(model)
-    if model.tangential == FRICTIONLESS:
-        del raw["tangential"]
-    if model.moments == FREE:
-        del raw["moments"]
-    elif "stiffness" in raw["moments"]:
-        parts = {name: variant_to_json(raw["moments"][name]) for name in ("stiffness", "dashpot", "twisting")}
-        raw["moments"] |= parts
-    return raw
-
-
-def _action_to_json(action: Action) -> dict[str, Any]:
-    raw = asdict(action)
-    if isinstance(action, SetPair):
-        raw["pair"] = _pair_to_json(action.pair)
-    elif isinstance(action, SetMotion):
-        raw["motion"] = variant_to_json(raw["motion"])
-    return raw
 
 
 def _drive_to_json(drive: Drive) -> dict[str, Any]:
@@ -344,42 +258,10 @@ def _drive_to_json(drive: Drive) -> dict[str, Any]:
 def _drive(item: dict[str, Any]) -> Drive:
     vectors = ("position", "velocity", "angular_velocity", "rotation", "point")
     legs = [
-        Leg(steps=leg["steps"], course=Course(**leg["course"]), **{name: _vector(leg[name]) for name in vectors})
+        Leg(steps=leg["steps"], course=Course(**leg["course"]), **{name: vector(leg[name]) for name in vectors})
         for leg in item["legs"]
     ]
     return Drive(item["particle"], tuple(legs))
-
-
-def _vector(raw: list[float]) -> Vector:
-    return (float(raw[0]), float(raw[1]), float(raw[2]))
-
-
-def _shape(item: dict[str, Any]) -> Shape:
-    if item["kind"] == "plane":
-        return Plane(_vector(item["point"]), _vector(item["normal"]))
-    if item["kind"] == "cylinder":
-        return Cylinder(_vector(item["point"]), _vector(item["axis"]), float(item["radius"]))
-    raise ValueError(f"shape {item['kind']!r} is unknown (known: plane, cylinder)")
-
-
-def _motion(item: dict[str, Any]) -> Motion:
-    velocity = item.get("velocity")
-    return Motion(item["kind"], None if velocity is None else _vector(velocity))
-
-
-def _body(item: dict[str, Any]) -> Body:
-    shape, motion = _shape(item["shape"]), _motion(item["motion"])
-    return Body(name=item["name"], material=item["material"], shape=shape, motion=motion)
-
-
-def _action(item: dict[str, Any]) -> Action:
-    if item["do"] == "set_pair":
-        return SetPair(_pair(item["pair"]))
-    if item["do"] == "set_motion":
-        return SetMotion(item["body"], _motion(item["motion"]))
-    if item["do"] == "set_gravity":
-        return SetGravity(_vector(item["value"]))
-    raise ValueError(f"action {item['do']!r} is unknown (known: set_pair, set_motion, set_gravity)")
 
 
 def _particle(item: dict[str, Any]) -> Particle:
@@ -388,36 +270,28 @@ def _particle(item: dict[str, Any]) -> Particle:
         radius=item["radius"],
         mass=item["mass"],
         moment_of_inertia=item["moment_of_inertia"],
-        position=_vector(item["position"]),
-        velocity=_vector(item["velocity"]),
-        angular_velocity=_vector(item["angular_velocity"]),
+        position=vector(item["position"]),
+        velocity=vector(item["velocity"]),
+        angular_velocity=vector(item["angular_velocity"]),
     )
 
 
-def _pair(item: dict[str, Any]) -> Pair:
-    first, second = item["between"]
-    typed = dict(item)
-    typed["between"] = (int(first), int(second))
-    return Pair(**typed)
-
-
 def from_json(raw: dict[str, Any]) -> Scene:
-    """The typed view of one scene object."""
+    """The typed view of one scene object. Raises ValueError for a shape, motion, load or action that is not known."""
     x, y, z = raw["domain"]["boundary"]
     typed: dict[str, Any] = {
-        "gravity": _vector(raw["gravity"]),
-        "domain": Domain(_vector(raw["domain"]["min"]), _vector(raw["domain"]["max"]), (x, y, z)),
-        "materials": tuple(Material(**item) for item in raw["materials"]),
-        "pairs": tuple(_pair(item) for item in raw["pairs"]),
+        "gravity": vector(raw["gravity"]),
+        "domain": Domain(vector(raw["domain"]["min"]), vector(raw["domain"]["max"]), (x, y, z)),
+        "materials": tuple(material_from_json(item) for item in raw["materials"]),
+        "pairs": tuple(pair_from_json(item) for item in raw["pairs"]),
         "model": model_from_json(raw["model"]),
         "mirror": mirror_from_json(raw["mirror"]),
-        "bodies": tuple(_body(item) for item in raw["bodies"]),
+        "bodies": tuple(body_from_json(item) for item in raw["bodies"]),
         "particles": tuple(_particle(item) for item in raw["particles"]),
         "drives": tuple(_drive(item) for item in raw.get("drives", [])),
-        "stages": tuple(
-            Stage(item["name"], item["steps"], tuple(_action(action) for action in item["actions"]))
-            for item in raw.get("stages", [])
-        ),
+        "stages": tuple(stage_from_json(item) for item in raw.get("stages", [])),
         "observables": tuple(raw.get("observables", [])),
     }
+    if "start" in raw:
+        typed["start"] = Start(from_json(raw["start"]["scene"]), raw["start"]["step"])
     return Scene(**{**raw, **typed})

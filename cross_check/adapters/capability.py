@@ -12,6 +12,8 @@ from cross_check.scene import Body, Cylinder, Mirror, Pair, Scene, Vector
 AXES = "xyz"
 # Young's modulus [Pa] typed for a rigid material: (1 - nu^2)/E vanishes beside every real material, to the last bit.
 RIGID_YOUNG = 1e40
+# Actions of stages that no translation has; `strain` is a motion.
+NATIVE_ACTIONS = ("remove", "ramp_temperature", "set_relaxation_time")
 # Relative tolerance for values that the scene and the code both form from the same inputs: rounding only.
 SAME = 1e-12
 
@@ -43,6 +45,26 @@ class Tube:
     place: tuple[float, float]
     radius: float
     velocity: Vector
+
+
+def native_only(scene: Scene) -> list[str]:
+    """What a scene states, apart from its laws, and only the native engine computes: one reason each."""
+    reasons: list[str] = []
+    if scene.start is not None:
+        reasons.append(f"the scene starts from a state of the case {scene.start.scene.case}, contacts and all")
+    if scene.disk_height is not None:
+        reasons.append("particles are disks, the codes have spheres")
+    if scene.temperature is not None or any(material.expansion is not None for material in scene.materials):
+        reasons.append("the particles have a temperature")
+    moving = [(name, kind) for name, kind in scene.motions() if kind not in ("fixed", "prescribed")]
+    for motion in dict.fromkeys(kind for _, kind in moving):
+        names = ", ".join(dict.fromkeys(name for name, kind in moving if kind == motion))
+        reasons.append(f"the motion {motion} of {names} has no translation")
+    done = (action.do for stage in scene.stages for action in stage.actions)
+    reasons += [f"the action {name} has no translation" for name in dict.fromkeys(done) if name in NATIVE_ACTIONS]
+    if any(stage.output_every not in (None, scene.output_every) for stage in scene.stages):
+        reasons.append("samples of a stage at intervals of its own have no translation")
+    return reasons
 
 
 def check(scene: Scene) -> None:
@@ -130,11 +152,8 @@ def _axis(direction: Vector) -> int | None:
 
 
 def _velocity(body: Body) -> Vector:
-    if body.motion.kind == "prescribed" and body.motion.velocity is not None:
-        return body.motion.velocity
-    if body.motion.kind != "fixed":
-        raise NotComparable(f"body {body.name}: the motion {body.motion.kind} has no translation")
-    return (0.0, 0.0, 0.0)
+    """Velocity [m/s] of a body whose motion has a translation: others are `native_only`."""
+    return body.motion.velocity or (0.0, 0.0, 0.0)
 
 
 def touching(scene: Scene) -> list[Pair]:

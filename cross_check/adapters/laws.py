@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from dataclasses import dataclass, replace
 
-from cross_check.adapters.capability import SAME, pair_key, stiffness_of
+from cross_check.adapters.capability import SAME, native_only, pair_key, stiffness_of
 from cross_check.adapters.interface import InvalidScene, NotComparable
 from cross_check.adapters.render import number
 from cross_check.contact_model import (
@@ -34,16 +34,30 @@ class Known:
     moments: tuple[str, ...]
 
 
-def check(scene: Scene, known: Known) -> None:
-    """Raises NotComparable for a law that the code lacks, InvalidScene for values that no law allows."""
+def comparable(scene: Scene, known: Known) -> None:
+    """Raises NotComparable with all that the code lacks: what only the native engine computes, and laws.
+
+    Decks and mirrors ask this first: a scene that no code has a form for need not be valid for one.
+    """
     model = scene.model
-    for kind, law, laws in (
+    kinds = (
         ("normal", model.normal.law, known.normal),
         ("tangential", model.tangential.law, known.tangential),
         ("moment", model.moments.law, known.moments),
-    ):
-        if law not in laws:
-            raise NotComparable(f"the {kind} law {law} has no translation in {known.code} (known: {', '.join(laws)})")
+    )
+    reasons = [
+        f"the {kind} law {law} has no translation in {known.code} (known: {', '.join(laws)})"
+        for kind, law, laws in kinds
+        if law not in laws
+    ]
+    reasons += native_only(scene)
+    if reasons:
+        raise NotComparable("; ".join(reasons))
+
+
+def check(scene: Scene) -> None:
+    """Raises InvalidScene for values that no law allows, NotComparable for laws that do not stand together."""
+    model = scene.model
     if model.normal.force_cut not in FORCE_CUTS:
         raise InvalidScene(f"force_cut {model.normal.force_cut!r} is unknown (known: {', '.join(FORCE_CUTS)})")
     _check_normal(model.normal)

@@ -18,6 +18,8 @@ Index = NDArray[np.int64]
 
 CONTACT_COLUMNS = ("contact_start", "contact_pair", "contact_force")
 PLAIN = ("step", "time", "position")
+# Shared by all contacts: neither of particles nor of bodies.
+LAW_STATE = "law_state"
 #: A contact longer than this multiple of the sum of the radii is one across a periodic face [-].
 LONGEST_CONTACT = 2.0
 
@@ -126,7 +128,9 @@ class Trajectory:
             found.append(Field("material", "-", np.broadcast_to(materials, (self.samples, self.count))))
         shapes = ((self.samples, self.count), (self.samples, self.count, 3))
         for name, column in self.record.columns.items():
-            if name not in PLAIN and not name.startswith(("body_", "energy_", "contact_")) and column.shape in shapes:
+            if name in (*PLAIN, LAW_STATE) or name.startswith(("body_", "energy_", "contact_")):
+                continue
+            if column.shape in shapes:
                 found.append(Field(name, UNITS.get(name, "-"), column))
         return found
 
@@ -135,7 +139,7 @@ class Trajectory:
         return next(field.values[sample] for field in self.fields() if field.name == "radius")
 
     def series(self) -> list[Series]:
-        """Energies and the forces on bodies, one series for each component."""
+        """Energies, the state of the law, and forces on bodies and their points, one series for each component."""
         found: list[Series] = []
         for name, column in self.record.columns.items():
             unit = UNITS.get(name, "-")
@@ -143,6 +147,9 @@ class Trajectory:
                 continue
             if column.ndim == 1:
                 found.append(Series(name, unit, column))
+            elif name == LAW_STATE:
+                states = enumerate(self.header.law_state)
+                found += [Series(state, own, column[:, place]) for place, (state, own) in states]
             elif name.startswith("body_"):
                 for number, body in enumerate(self.header.bodies):
                     values: Array = np.reshape(column[:, number], (self.samples, -1))
@@ -168,6 +175,9 @@ class Trajectory:
         """The shape of a body at a sample, or None where the record and the case do not tell where it is."""
         if self.scene is None:
             return None
+        if "body_point" in self.record.columns:
+            x, y, z = self.record["body_point"][sample, body].tolist()
+            return replace(self.scene.bodies[body].shape, point=(x, y, z))
         return moved(self.scene, body, int(self.record.step[sample]))
 
     def contacts(self, sample: int) -> Contacts:
@@ -221,13 +231,15 @@ class Trajectory:
 
 
 def moved(scene: Scene, body: int, step: int) -> Shape | None:
-    """The shape of a body at a step, through the stages of the scene, or None for a motion that is not prescribed."""
+    """The shape of a body at a step, through the stages of the scene, or None where the scene does not say."""
+    name = scene.bodies[body].name
+    kinds = {kind for moving, kind in scene.motions() if moving == name}
+    if scene.start is not None or not kinds <= {"fixed", "prescribed"}:
+        return None
     shape, begin = scene.bodies[body].shape, 0
     point = np.array(shape.point)
     for index, length in enumerate([stage.steps for stage in scene.stages] or [scene.steps]):
         motion = scene.at_stage(index).bodies[body].motion
-        if motion.kind not in ("fixed", "prescribed"):
-            return None
         lasted = min(step - begin, length) * scene.time_step
         point = point + lasted * np.array(motion.velocity or (0.0, 0.0, 0.0))
         begin += length

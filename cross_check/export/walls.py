@@ -27,7 +27,8 @@ def wall_triangles(trajectory: Trajectory, sample: int = 0) -> tuple[Array, Tria
     for number, body in enumerate(scene.bodies):
         place = trajectory.shape_at(number, sample)
         if place is None:
-            raise ExportError(f"bodies.{number}.motion = {body.motion.kind}: known are fixed and prescribed walls")
+            motion = f"bodies.{number}.motion = {body.motion.kind}"
+            raise ExportError(f"{motion}: known are fixed and prescribed walls, and those with the column body_point")
         corners, faces = triangulate(body.shape, scene.domain)
         points.append(corners + np.subtract(place.point, body.shape.point))
         triangles.append(faces + total)

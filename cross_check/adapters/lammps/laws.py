@@ -69,7 +69,7 @@ def history(scene: Scene) -> str:
 
 def check(scene: Scene) -> None:
     """Raises NotComparable or InvalidScene for a model without translation."""
-    laws.check(scene, KNOWN)
+    laws.check(scene)
     normal, law = scene.model.normal, scene.model.tangential
     if normal.law == "dmt" and law.law != "frictionless":
         raise NotComparable(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cross_check.adapters import laws as contact_laws
 from cross_check.adapters.capability import has_tube, mirrored
-from cross_check.adapters.lammps.laws import force_cut, history
+from cross_check.adapters.lammps.laws import KNOWN, force_cut, history
 from cross_check.mirror_options import (
     Arms,
     Mirror,
@@ -62,7 +62,11 @@ def _twisting(scene: Scene) -> TwistingOptions | None:
 
 
 def mirror(scene: Scene) -> Scene:
-    """`scene` as the native engine must run it to repeat LAMMPS: no cut unless asked, planes without curvature."""
+    """`scene` as the native engine must run it to repeat LAMMPS: no cut unless asked, planes without curvature.
+
+    Raises NotComparable where the code lacks something.
+    """
+    contact_laws.comparable(scene, KNOWN)
     options = Mirror(
         code="lammps",
         plane_radius_factor=None,

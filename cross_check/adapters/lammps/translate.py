@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from cross_check.adapters import capability, paths, start_file
+from cross_check.adapters import laws as contact_laws
 from cross_check.adapters.dump import CONTACTS, HISTORY, PARTICLES, STATE
 from cross_check.adapters.interface import Deck, NotComparable, Row
 from cross_check.adapters.lammps import changes, laws
@@ -21,6 +22,7 @@ MOST_MATERIALS = 31
 
 def deck(scene: Scene) -> Deck:
     """The LAMMPS deck of `scene`. Raises NotComparable or InvalidScene with the reason."""
+    contact_laws.comparable(scene, laws.KNOWN)
     capability.check(scene)
     if len(kinds(scene)) > MOST_MATERIALS:
         raise NotComparable(f"{len(kinds(scene))} materials of particles, LAMMPS has groups for {MOST_MATERIALS}")

@@ -59,7 +59,7 @@ def restitution_of(damping_ratio: float) -> float:
 
 def words(scene: Scene) -> Words:
     """The contact model of `scene`. Raises NotComparable or InvalidScene with the reason."""
-    laws.check(scene, KNOWN)
+    laws.check(scene)
     pairs = capability.touching(scene)
     normal = _normal(scene, pairs)
     tangential = _tangential(scene, pairs)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cross_check.adapters import laws as contact_laws
 from cross_check.adapters.capability import has_tube, mirrored
-from cross_check.adapters.liggghts.laws import force_cut
+from cross_check.adapters.liggghts.laws import KNOWN, force_cut
 from cross_check.contact_model import ConstantTorque
 from cross_check.mirror_options import Arms, Mirror, RollingOptions, TangentialOptions
 from cross_check.scene import Scene
@@ -51,7 +51,11 @@ def _opposed(scene: Scene) -> str | None:
 
 
 def mirror(scene: Scene) -> Scene:
-    """`scene` as the native engine must run it to repeat LIGGGHTS: no cut unless asked, planes without curvature."""
+    """`scene` as the native engine must run it to repeat LIGGGHTS: no cut unless asked, planes without curvature.
+
+    Raises NotComparable where the code lacks something.
+    """
+    contact_laws.comparable(scene, KNOWN)
     options = Mirror(
         code="liggghts",
         plane_radius_factor=None,

@@ -71,7 +71,7 @@ def betan_of(damping_ratio: float) -> float:
 
 def words(scene: Scene) -> Words:
     """The contact model of `scene`. Raises NotComparable or InvalidScene with the reason."""
-    laws.check(scene, KNOWN)
+    laws.check(scene)
     pairs = capability.touching(scene)
     law = scene.model.normal
     if isinstance(law, LudingHysteretic):

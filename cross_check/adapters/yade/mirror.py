@@ -5,7 +5,7 @@ from __future__ import annotations
 from cross_check.adapters import laws as contact_laws
 from cross_check.adapters.capability import mirrored, touching
 from cross_check.adapters.yade import moments
-from cross_check.adapters.yade.laws import force_cut
+from cross_check.adapters.yade.laws import KNOWN, force_cut
 from cross_check.adapters.yade.moments import PLANE_RADIUS_FACTOR
 from cross_check.contact_model import RollingDashpot, RollingStiffness
 from cross_check.mirror_options import (
@@ -61,7 +61,11 @@ def _twisting(scene: Scene) -> TwistingOptions | None:
 
 
 def mirror(scene: Scene) -> Scene:
-    """`scene` as the native engine must run it to repeat YADE: walls as spheres of 1e8 radii, half-step velocities."""
+    """`scene` as the native engine must run it to repeat YADE: walls as spheres of 1e8 radii, half-step velocities.
+
+    Raises NotComparable where the code lacks something.
+    """
+    contact_laws.comparable(scene, KNOWN)
     options = Mirror(
         code="yade",
         plane_radius_factor=PLANE_RADIUS_FACTOR,

@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from cross_check.adapters import capability, paths, start_file
+from cross_check.adapters import laws as contact_laws
 from cross_check.adapters.capability import AXES, Plane
 from cross_check.adapters.interface import Deck, NotComparable, Row
 from cross_check.adapters.render import number, numbers, render, table, word
@@ -83,6 +84,7 @@ def _cell_rows(scene: Scene) -> list[Row]:
 
 def deck(scene: Scene) -> Deck:
     """The YADE deck of `scene`. Raises NotComparable or InvalidScene with the reason."""
+    contact_laws.comparable(scene, laws.KNOWN)
     capability.check(scene)
     words = laws.words(scene)
     planes = capability.planes(scene, NO_TUBES)

@@ -54,11 +54,12 @@ def test_a_value_is_the_mean_over_the_last_share_of_its_stage() -> None:
     assert record.value("count", "relax", 1.0) == np.mean(np.arange(40, 100))
     assert record.value("count", "pour", 0.05) == np.mean([38, 39])
     assert record.value("count", "pour", 1e-9) == 39.0
+    assert record.value("count", "pour", 0.0) == 39.0
     assert record.values("pair", "pour", 0.5).tolist() == [1.0, 1.0]
     with pytest.raises(RecordError, match="pair has 2 components, expected a scalar"):
         record.value("pair", "pour", 0.5)
-    for share in (0.0, 1.5):
-        with pytest.raises(RecordError, match="expected a share above 0 and up to 1"):
+    for share in (-0.1, 1.5):
+        with pytest.raises(RecordError, match="expected a share from 0 to 1"):
             record.value("count", "pour", share)
 
 
