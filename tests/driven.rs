@@ -91,7 +91,7 @@ fn a_restart_changes_no_bit_of_a_driven_run() {
     let _ = std::fs::remove_file(&file);
     // In the middle of the second stage; a second run goes on from what the first one left.
     let plan = Checkpoints { file, steps: Some(1700), interval: None };
-    let options = Options { threads: 1, checkpoints: Some(plan) };
+    let options = Options { checkpoints: Some(plan), ..Options::threads(1) };
     for _ in 0..2 {
         let record = run(&scene, &options);
         for name in ["position", "velocity", "force", "torque", "energy_elastic", "energy_body_work"] {

@@ -227,7 +227,7 @@ fn a_restart_at_any_step_changes_no_bit() {
         let file = folder.join(format!("restart-{trial}.npz"));
         state.write(&file, "scene").unwrap();
         let state = Checkpoint::read(&file, "scene").unwrap();
-        let mut simulation = Simulation::restore(&setup, MODEL, &state).unwrap();
+        let mut simulation = Simulation::restore(&setup, MODEL, &state, &[]).unwrap();
         simulation.advance_to(300).unwrap();
         assert_eq!(whole, bits(&simulation), "restarted at step {step}");
     }
@@ -299,7 +299,7 @@ fn a_selection_that_lasts_several_steps_misses_no_contact() {
             broken.advance_to(step).unwrap();
             let mut saved = Checkpoint::default();
             broken.save(&mut saved);
-            broken = Simulation::restore(&setup, MODEL, &saved).unwrap();
+            broken = Simulation::restore(&setup, MODEL, &saved, &[]).unwrap();
         }
         assert!(bits(&whole) == bits(&broken), "velocities times {factor}");
     }

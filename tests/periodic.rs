@@ -62,7 +62,7 @@ fn a_flight_resumed_between_faces_has_the_same_bits() {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("periodic-flight.npz");
     let _ = std::fs::remove_file(&file);
     let checkpoints = Some(Checkpoints { file, steps: Some(137), interval: None });
-    let options = Options { threads: 1, checkpoints };
+    let options = Options { checkpoints, ..Options::threads(1) };
     // The first run leaves the checkpoint of step 959; the second goes on from there.
     let whole = simulation::run(&scene, &options, &|_| {}).unwrap();
     let resumed = simulation::run(&scene, &options, &|_| {}).unwrap();

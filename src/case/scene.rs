@@ -282,13 +282,12 @@ pub fn prepare(
     };
     scene.pairs = pairs(case, &scene.materials);
     scene.bodies = bodies::bodies(case);
-    let origins = match &start {
-        Some(start) => start::inherit(&mut scene, start)?,
-        None => {
-            let origins = particles::place(case, &mut scene)?;
-            particles::weighable(case, &scene, &origins)?;
-            origins
-        }
+    let origins = if let Some(start) = &start {
+        start::inherit(&mut scene, start)?
+    } else {
+        let origins = particles::place(case, &mut scene)?;
+        particles::weighable(case, &scene, &origins)?;
+        origins
     };
     valid::room(case, &scene)?;
     drop_unused_materials(&mut scene);

@@ -70,7 +70,6 @@ fn measured(scene: &Scene, recorder: &Recorder) -> Result<BTreeMap<String, serde
         body_point: rows("body_point"),
         radius: Some(recorder.values("radius")).filter(|radius| !radius.is_empty()),
         contacts: contacts.as_ref().map(|(start, pair, force)| ContactColumns { start, pair, force }),
-        ..Columns::default()
     };
     let mut means: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     let mut found = BTreeMap::new();

@@ -97,6 +97,7 @@ pub(crate) fn probe(spin: Vector) -> (Contact, NormalState, TangentialState) {
     let tangential = TangentialState {
         force: velocity,
         sliding: false,
+        limit: 0.0,
         arms: [1e-3, 2e-3],
         stiffness: 500.0,
         dashpot: 0.1,

@@ -10,7 +10,8 @@ use crate::case::scene::{Mirror, SceneModel};
 use crate::laws::normal::luding_sintering::LudingSintering;
 use crate::laws::{Approach, NormalLaw, PairLaw, Surroundings};
 
-fn refuse(reason: impl ToString) -> PyErr {
+#[expect(clippy::needless_pass_by_value, reason = "map_err hands over owned errors")]
+fn refuse<R: ToString>(reason: R) -> PyErr {
     PyValueError::new_err(reason.to_string())
 }
 
@@ -32,6 +33,7 @@ fn values(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
 /// Drives one contact of the law (a case's `[model.normal]` as JSON) through overlaps [m] at loading stiffnesses [N/m].
 /// Returns arrays: `force` [N] without the dashpot, `largest_overlap` [m], `stiffness` [N/m] and plastic `offset` [m].
 #[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "Python hands over owned arguments")]
 #[pyo3(signature = (law, overlaps, loading_stiffness, cohesive = true))]
 pub fn sintering_contact<'py>(
     py: Python<'py>,
@@ -78,6 +80,7 @@ pub fn sintering_contact<'py>(
 /// k1(T,t) [N/m] at the end of steps `dt` [s], from that of the first temperature [K]; one temperature and one relaxation
 /// time [s] for each step.
 #[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "Python hands over owned arguments")]
 pub fn sintering_stiffness<'py>(
     py: Python<'py>,
     law: &str,

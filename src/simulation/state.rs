@@ -108,7 +108,9 @@ impl<M: ContactModel> Simulation<M> {
     /// The setup is inconsistent, or the checkpoint does not fit it.
     pub fn restore(setup: &Setup, model: M, from: &Checkpoint, stages: &[(u64, &SceneStage)]) -> Result<Self, Error> {
         let mut simulation = Self::unevaluated(setup, model)?;
-        stages.iter().for_each(|(first, stage)| simulation.begin_stage(stage, *first));
+        for (first, stage) in stages {
+            simulation.begin_stage(stage, *first);
+        }
         simulation.stale = false;
         let misfit = || setup.refuse("the checkpoint does not fit the scene".to_owned());
         let count = simulation.particles.len();

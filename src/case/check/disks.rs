@@ -68,9 +68,9 @@ impl Checker<'_> {
                 }
                 _ => continue,
             };
-            let place = *first.get_or_insert(low.si());
-            if low.si() != place || high.si() != place {
-                let allowed = format!("disks move in one plane: y = {place} m");
+            let place = *first.get_or_insert(low);
+            if low != place || high != place {
+                let allowed = format!("disks move in one plane: y = {place:?}");
                 self.add(format!("particles.{i}.{key}"), format!("{high:?}"), allowed);
             }
         }
