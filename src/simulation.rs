@@ -87,7 +87,7 @@ impl Setup {
             cylinder_curvature: scene.mirror.cylinder_curvature,
             start: scene.mirror.start,
             ledger: scene.energies,
-            accounts: scene.energies || scene.contacts,
+            accounts: scene.contacts,
             temperature: scene.temperature,
             expansions: scene.materials.iter().map(|material| material.expansion).collect(),
             skin: None,
@@ -183,7 +183,8 @@ impl<M: ContactModel> Simulation<M> {
             time_step: setup.time_step,
             start: setup.start,
             ledger_kept: setup.ledger,
-            accounts_kept: setup.accounts,
+            // The ledger adds up what contacts account for.
+            accounts_kept: setup.accounts || setup.ledger,
             stop: 0,
             climate: Climate::new(setup),
             plane_radius_factor: setup.plane_radius_factor,
