@@ -179,7 +179,7 @@ def test_a_deck_that_no_code_can_state_is_refused(tmp_path: Path) -> None:
     ("arguments", "words"),
     [
         (("run", "no-such-suite"), "no such suite, case or file"),
-        (("run", "sintering"), "has no cases in this version"),
+        (("run", "fine-powders"), "has no cases in this version"),
         (("run", "free-fall", "--codes", "mercury"), "no such code mercury"),
         (("run", "missing.toml"), "missing.toml"),
         (("report", "nowhere"), "not a kept campaign"),
