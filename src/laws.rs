@@ -146,6 +146,16 @@ pub trait NormalLaw: Copy + Send + Sync {
     /// Advances the shared state by `dt` [s] to the present surroundings.
     fn advance(&self, _shared: &mut Self::Shared, _surroundings: &Surroundings, _dt: f64) {}
 
+    /// Whether the shared state changed so that memories have to follow: one answer for all contacts.
+    #[inline(always)]
+    fn renews(&self, _shared: &Self::Shared) -> bool {
+        false
+    }
+
+    /// Lets a memory follow the shared state, before the force of a step in which it renews.
+    #[inline(always)]
+    fn renew(&self, _shared: &Self::Shared, _history: &mut Self::History) {}
+
     /// The force at a contact that is alive.
     fn evaluate(
         &self,

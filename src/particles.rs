@@ -58,6 +58,8 @@ pub struct Particles {
     index: Vec<u32>,
     /// Edges of the box that each id has left behind along periodic axes.
     crossings: Vec<[i32; 3]>,
+    /// The material of all particles, if there is only one.
+    material: Option<usize>,
 }
 
 impl Particles {
@@ -79,6 +81,8 @@ impl Particles {
         }
         columns.load = vec![Load::default(); particles.len()];
         columns.crossings = vec![[0; 3]; particles.len()];
+        let first = particles.first().map(|particle| particle.material);
+        columns.material = first.filter(|first| particles.iter().all(|particle| particle.material == *first));
         columns
     }
 
@@ -92,6 +96,12 @@ impl Particles {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.place.is_empty()
+    }
+
+    /// Index of the material of all particles, if there is only one.
+    #[must_use]
+    pub fn material(&self) -> Option<usize> {
+        self.material
     }
 
     /// Place in memory of each id.

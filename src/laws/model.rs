@@ -47,8 +47,23 @@ pub trait ContactModel: Copy + Send + Sync {
     /// Largest gap across which the model acts [m].
     fn reach(&self) -> f64;
 
-    /// Force and moments of a living contact over a step `dt` [s].
-    fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action;
+    /// See [`NormalLaw::renews`].
+    fn renews(&self, shared: &Self::Shared) -> bool;
+
+    /// See [`NormalLaw::renew`].
+    fn renew(&self, shared: &Self::Shared, history: &mut Self::History);
+
+    /// Force and moments of a living contact over a step `dt` [s], whose memory was renewed.
+    fn act(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action;
+
+    /// Renews the memory of a living contact where needed; force and moments over a step `dt` [s].
+    #[inline(always)]
+    fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action {
+        if self.renews(shared) {
+            self.renew(shared, history);
+        }
+        self.act(contact, shared, dt, history)
+    }
 }
 
 /// Three laws that make a model.
@@ -83,7 +98,17 @@ impl<N: NormalLaw, T: TangentialLaw, M: MomentLaw> ContactModel for Composed<N, 
     }
 
     #[inline(always)]
-    fn evaluate(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action {
+    fn renews(&self, shared: &Self::Shared) -> bool {
+        self.normal.renews(shared)
+    }
+
+    #[inline(always)]
+    fn renew(&self, shared: &Self::Shared, history: &mut Self::History) {
+        self.normal.renew(shared, &mut history.0);
+    }
+
+    #[inline(always)]
+    fn act(&self, contact: &Contact, shared: &Self::Shared, dt: f64, history: &mut Self::History) -> Action {
         let normal = self.normal.evaluate(&contact.pair, &contact.approach(), shared, &mut history.0);
         let tangential = self.tangential.evaluate(contact, &normal, dt, &mut history.1);
         let moments = self.moments.evaluate(contact, &normal, &tangential, dt, &mut history.2);

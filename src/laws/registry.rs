@@ -19,9 +19,9 @@ use super::model::{Composed, ContactModel, Free, Frictionless};
 use super::moments::any::Moments;
 use super::normal::cohesive::DashpotLimit;
 use super::normal::hertz::Hertz;
-use super::normal::hysteretic_branches::{Branches, Rule};
+use super::normal::hysteretic_branches::Rule;
 use super::normal::linear_spring_dashpot::LinearSpringDashpot;
-use super::normal::luding_sintering::{Cooling, LudingSintering, Sliding};
+use super::normal::luding_sintering::{Brittle, LudingSintering, Sliding};
 use super::tangential::luding_sintering::LudingSintering as SinteringFriction;
 use super::tangential::mindlin::Mindlin;
 use super::tangential::options::{Dashpot, Options};
@@ -31,47 +31,13 @@ use super::tangential::options::{Dashpot, Options};
 #[serde(tag = "law", rename_all = "snake_case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the laws' own files describe their values")]
 pub enum Normal {
-    Hertz {
-        force_cut: bool,
-    },
-    Dmt {
-        force_cut: bool,
-        dashpot_limit: DashpotLimit,
-    },
-    Sjkr {
-        force_cut: bool,
-        energy_density: f64,
-    },
-    Sjkr2 {
-        force_cut: bool,
-        energy_density: f64,
-    },
-    LinearSpringDashpot {
-        stiffness: f64,
-        dashpot: f64,
-        force_cut: bool,
-    },
-    LudingHysteretic {
-        k1: f64,
-        kp: f64,
-        kc: f64,
-        plasticity_depth: f64,
-        dashpot: f64,
-        force_cut: bool,
-        rule: Rule,
-    },
-    LudingSintering {
-        k1: f64,
-        k2: f64,
-        kc: f64,
-        fluid_overlap: f64,
-        dashpot: f64,
-        melting_temperature: f64,
-        melting_range: f64,
-        relaxation_time: f64,
-        cooling: Cooling,
-        sliding: Sliding,
-    },
+    Hertz { force_cut: bool },
+    Dmt { force_cut: bool, dashpot_limit: DashpotLimit },
+    Sjkr { force_cut: bool, energy_density: f64 },
+    Sjkr2 { force_cut: bool, energy_density: f64 },
+    LinearSpringDashpot { stiffness: f64, dashpot: f64, force_cut: bool },
+    LudingHysteretic { k1: f64, kp: f64, kc: f64, plasticity_depth: f64, dashpot: f64, force_cut: bool, rule: Rule },
+    LudingSintering(LudingSintering),
 }
 
 /// A tangential law.
@@ -82,7 +48,7 @@ pub enum Tangential {
     Frictionless,
     Mindlin { dashpot: Dashpot, options: Options },
     LinearHistory { stiffness_ratio: f64, dashpot: Dashpot, options: Options },
-    LudingSintering { stiffness_ratio: f64, dashpot: f64, softens: bool },
+    LudingSintering(SinteringFriction),
 }
 
 /// A composed model.
@@ -107,7 +73,7 @@ impl Normal {
             }
             Self::LinearSpringDashpot { stiffness, .. }
             | Self::LudingHysteretic { k1: stiffness, .. }
-            | Self::LudingSintering { k1: stiffness, .. } => {
+            | Self::LudingSintering(LudingSintering { k1: stiffness, .. }) => {
                 LinearSpringDashpot::half_period(stiffness, pair.effective_mass)
             }
         }
@@ -171,13 +137,17 @@ impl Specification {
             {
                 visitor.visit(Composed { normal: Hertz { force_cut }, tangential: Mindlin::plain(), moments: Free })
             }
-            _ => {
-                if let Some(normal) = normal.sintering() {
-                    return Ok(match tangential.sintering() {
-                        Some(tangential) => visitor.visit(Composed { normal, tangential, moments: Free }),
-                        None => visitor.visit(Composed { normal, tangential: Frictionless, moments: Free }),
-                    });
+            (Normal::LudingSintering(normal), Tangential::LudingSintering(tangential)) => {
+                if normal.sliding == Sliding::Brittle {
+                    visitor.visit(Composed { normal: Brittle(normal), tangential, moments: Free })
+                } else {
+                    visitor.visit(Composed { normal, tangential, moments: Free })
                 }
+            }
+            (Normal::LudingSintering(normal), _) => {
+                visitor.visit(Composed { normal, tangential: Frictionless, moments: Free })
+            }
+            _ => {
                 let any = AnyNormal::new(&normal).zip(AnyTangential::new(&tangential));
                 let Some((normal, tangential)) = any else { return Err(alone(&self.tangential)) };
                 visitor.visit(Composed { normal, tangential, moments })
@@ -232,34 +202,14 @@ impl Specification {
                 within("model.normal.plasticity_depth", plasticity_depth, plasticity_depth > 0.0, "above 0")?;
                 within("model.normal.dashpot", dashpot, dashpot >= 0.0, "at least 0 kg/s")?;
             }
-            Normal::LudingSintering {
-                k1,
-                k2,
-                kc,
-                fluid_overlap,
-                dashpot,
-                melting_temperature,
-                melting_range,
-                relaxation_time,
-                ..
-            } => {
-                within("model.normal.k1", k1, k1 > 0.0, "above 0 N/m")?;
-                within("model.normal.k2", k2, k2 > k1, "above k1")?;
-                within("model.normal.kc", kc, kc >= 0.0, "at least 0 N/m")?;
-                within("model.normal.fluid_overlap", fluid_overlap, fluid_overlap > 0.0, "above 0 m")?;
-                within("model.normal.dashpot", dashpot, dashpot >= 0.0, "at least 0 kg/s")?;
-                let melts = melting_temperature > 0.0;
-                within("model.normal.melting_temperature", melting_temperature, melts, "above 0 K")?;
-                within("model.normal.melting_range", melting_range, melting_range > 0.0, "above 0 K")?;
-                within("model.normal.relaxation_time", relaxation_time, relaxation_time > 0.0, "above 0 s")?;
-            }
+            Normal::LudingSintering(law) => law.check()?,
         }
-        if let Tangential::LinearHistory { stiffness_ratio, .. } | Tangential::LudingSintering { stiffness_ratio, .. } =
-            self.tangential
+        if let Tangential::LinearHistory { stiffness_ratio, .. }
+        | Tangential::LudingSintering(SinteringFriction { stiffness_ratio, .. }) = self.tangential
         {
             within("model.tangential.stiffness_ratio", stiffness_ratio, stiffness_ratio > 0.0, "above 0")?;
         }
-        if let Tangential::LudingSintering { dashpot, .. } = self.tangential {
+        if let Tangential::LudingSintering(SinteringFriction { dashpot, .. }) = self.tangential {
             within("model.tangential.dashpot", dashpot, dashpot >= 0.0, "at least 0 kg/s")?;
         }
         if let Tangential::Mindlin { dashpot, .. } | Tangential::LinearHistory { dashpot, .. } = self.tangential {
@@ -277,46 +227,7 @@ pub(super) fn within(key: &str, value: f64, holds: bool, allowed: &str) -> Resul
     if holds && value.is_finite() { Ok(()) } else { Err(Problem::new(key, value, allowed)) }
 }
 
-impl Normal {
-    /// The law of long-time sintering, if it is that.
-    #[must_use]
-    pub fn sintering(&self) -> Option<LudingSintering> {
-        let Self::LudingSintering {
-            k1,
-            k2,
-            kc,
-            fluid_overlap,
-            dashpot,
-            melting_temperature,
-            melting_range,
-            relaxation_time,
-            cooling,
-            sliding,
-        } = *self
-        else {
-            return None;
-        };
-        let limit = k2 / (k2 - k1) * fluid_overlap;
-        let branches = Branches { loading: k1, unloading: k2, cohesive: kc, limit };
-        Some(LudingSintering {
-            branches,
-            fluid_overlap,
-            dashpot,
-            melting_temperature,
-            melting_range,
-            relaxation_time,
-            cooling,
-            sliding,
-        })
-    }
-}
-
 impl Tangential {
-    fn sintering(&self) -> Option<SinteringFriction> {
-        let Self::LudingSintering { stiffness_ratio, dashpot, softens } = *self else { return None };
-        Some(SinteringFriction { stiffness_ratio, dashpot, softens })
-    }
-
     fn name(&self) -> &'static str {
         match self {
             Self::Frictionless => "frictionless",

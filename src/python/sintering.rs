@@ -8,6 +8,7 @@ use pyo3::types::PyDict;
 use crate::case::model::{NormalLaw as Stated, TangentialLaw};
 use crate::case::scene::{Mirror, SceneModel};
 use crate::laws::normal::luding_sintering::LudingSintering;
+use crate::laws::registry::Normal;
 use crate::laws::{Approach, NormalLaw, PairLaw, Surroundings};
 
 #[expect(clippy::needless_pass_by_value, reason = "map_err hands over owned errors")]
@@ -23,7 +24,10 @@ fn law(json: &str) -> PyResult<LudingSintering> {
         moments: crate::case::model::MomentLaw::Free {},
     };
     let laws = model.specification(&Mirror::default()).map_err(refuse)?;
-    laws.normal.sintering().ok_or_else(|| refuse("law: expected luding_sintering"))
+    match laws.normal {
+        Normal::LudingSintering(law) => Ok(law),
+        _ => Err(refuse("law: expected luding_sintering")),
+    }
 }
 
 fn values(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
@@ -48,8 +52,8 @@ pub fn sintering_contact<'py>(
         let lengths = format!("{} and {}", overlaps.len(), stiffnesses.len());
         return Err(refuse(format!("overlaps and loading_stiffness have the lengths {lengths}: expected equal ones")));
     }
-    if let Some(wrong) = stiffnesses.iter().find(|value| !(**value > 0.0 && **value <= law.branches.loading)) {
-        let most = law.branches.loading;
+    if let Some(wrong) = stiffnesses.iter().find(|value| !(**value > 0.0 && **value <= law.k1)) {
+        let most = law.k1;
         return Err(refuse(format!("loading_stiffness = {wrong} N/m: above 0, at most k1 = {most} N/m")));
     }
     let pair = PairLaw { cohesive, ..PairLaw::default() };
@@ -59,12 +63,16 @@ pub fn sintering_contact<'py>(
         let mut force = 0.0;
         if overlap > 0.0 {
             let approach = Approach { overlap, normal_velocity: 0.0, radii: [1.0; 2], at_body: false };
-            force = law.evaluate(&pair, &approach, &(loading, before), &mut largest).elastic;
+            let shared = (loading, before);
+            if law.renews(&shared) {
+                law.renew(&shared, &mut largest);
+            }
+            force = law.evaluate(&pair, &approach, &shared, &mut largest).elastic;
         } else {
             largest = 0.0;
         }
         before = loading;
-        let stiffness = law.branches.stiffness(largest);
+        let stiffness = law.branches().stiffness(largest);
         let offset = law.offset(largest, loading).min(law.fluid_overlap);
         for (column, value) in columns.iter_mut().zip([force, largest, stiffness, offset]) {
             column.push(value);

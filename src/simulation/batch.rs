@@ -3,7 +3,8 @@
 //! Rows have a fixed length and belong to one value on the stack: only so does the compiler know that no write of one lane
 //! is read by another, and vectorises the loop over lanes. Lanes do not depend on each other, nothing is fused or
 //! approximated: the bits are those of contacts evaluated one by one, for every width of vectors. Rows of four numbers are
-//! copied from and added to particles at once; the loop over lanes takes them apart.
+//! copied from and added to particles at once; the loop over lanes takes them apart. Every entry of a row is read: behind
+//! rows with gaps the compiler leaves the last vector of lanes to a scalar loop, an eighth of them at four times the cost.
 
 use crate::Vector;
 use crate::geometry;
@@ -28,16 +29,14 @@ type Column = [f64; LANES];
 /// What contacts know before they are evaluated, what they remember, and what they do.
 #[repr(align(64))]
 pub struct Batch<H> {
-    /// Branch vector (from j to i); the last entry is not used.
+    /// Branch vector (from j to i), and the coefficient of friction.
     branch: Rows,
     /// Velocity and the first component of the angular velocity, of i and j.
     velocity: [Rows; 2],
-    /// The other components of the angular velocity, and the mass; the last entry is not used.
+    /// The other components of the angular velocity, mass and radius.
     rest: [Rows; 2],
-    radius: [Column; 2],
     young: Column,
     shear: Column,
-    friction: Column,
     damping: Column,
     cohesive: [bool; LANES],
     history: [H; LANES],
@@ -62,10 +61,8 @@ impl<H: Copy + Default> Batch<H> {
             branch: rows,
             velocity: [rows; 2],
             rest: [rows; 2],
-            radius: [column; 2],
             young: column,
             shear: column,
-            friction: column,
             damping: column,
             cohesive: [false; LANES],
             history: [H::default(); LANES],
@@ -77,17 +74,22 @@ impl<H: Copy + Default> Batch<H> {
 
     /// Fills a lane; `shift` is that of the image in which the pair meets [m].
     #[inline(always)]
-    pub fn fill(&mut self, lane: usize, [one, other]: [&Place; 2], motions: [&Motion; 2], shift: &Row, history: &H) {
-        let place = |place: &Place| [place.position.x, place.position.y, place.position.z, place.radius];
-        let (near, far) = (place(one), place(other));
-        self.branch[lane] = [0, 1, 2, 3].map(|k| near[k] - far[k] + shift[k]);
-        self.radius[0][lane] = one.radius;
-        self.radius[1][lane] = other.radius;
-        for (end, motion) in motions.into_iter().enumerate() {
-            let (v, w) = (&motion.velocity, &motion.angular_velocity);
+    pub fn fill(
+        &mut self,
+        lane: usize,
+        places: [&Place; 2],
+        motions: [&Motion; 2],
+        shift: &Row,
+        friction: Option<f64>,
+        history: &H,
+    ) {
+        let [near, far] = places.map(|place| &place.position);
+        let branch = [0, 1, 2].map(|k| near[k] - far[k] + shift[k]);
+        self.branch[lane] = [branch[0], branch[1], branch[2], friction.unwrap_or_default()];
+        for end in 0..2 {
+            let (v, w) = (&motions[end].velocity, &motions[end].angular_velocity);
             self.velocity[end][lane] = [v.x, v.y, v.z, w.x];
-            let rest = &mut self.rest[end][lane];
-            (rest[0], rest[1], rest[2]) = (w.y, w.z, motion.mass);
+            self.rest[end][lane] = [w.y, w.z, motions[end].mass, places[end].radius];
         }
         self.history[lane] = *history;
     }
@@ -97,7 +99,6 @@ impl<H: Copy + Default> Batch<H> {
     pub fn set_properties(&mut self, lane: usize, pair: &PairProperties) {
         self.young[lane] = pair.effective_young;
         self.shear[lane] = pair.effective_shear.unwrap_or_default();
-        self.friction[lane] = pair.friction.unwrap_or_default();
         self.damping[lane] = pair.damping_ratio;
         self.cohesive[lane] = pair.cohesive.unwrap_or_default();
     }
@@ -107,33 +108,39 @@ impl<H: Copy + Default> Batch<H> {
     pub fn evaluate<M: ContactModel<History = H>>(&mut self, model: M, shared: M::Shared, elapsed: f64) {
         // Rows of another length need a place of their own.
         let mut histories = self.history;
+        if model.renews(&shared) {
+            for history in &mut histories {
+                model.renew(&shared, history);
+            }
+        }
         #[expect(clippy::needless_range_loop, reason = "one index for all columns, which the compiler vectorises")]
         for lane in 0..LANES {
-            let [x, y, z, _] = self.branch[lane];
+            let [x, y, z, friction] = self.branch[lane];
             let branch = Vector::new(x, y, z);
             let squared = branch.norm_squared();
-            let [(velocity_i, angular_i, mass_i), (velocity_j, angular_j, mass_j)] = [0, 1].map(|end| {
-                let ([vx, vy, vz, wx], [wy, wz, mass, _]) = (self.velocity[end][lane], self.rest[end][lane]);
-                (Vector::new(vx, vy, vz), Vector::new(wx, wy, wz), mass)
-            });
+            let [(velocity_i, angular_i, mass_i, radius_i), (velocity_j, angular_j, mass_j, radius_j)] =
+                [0, 1].map(|end| {
+                    let ([vx, vy, vz, wx], [wy, wz, mass, radius]) = (self.velocity[end][lane], self.rest[end][lane]);
+                    (Vector::new(vx, vy, vz), Vector::new(wx, wy, wz), mass, radius)
+                });
             let pair = PairProperties {
                 effective_young: self.young[lane],
                 effective_shear: Some(self.shear[lane]),
                 damping_ratio: self.damping[lane],
-                friction: Some(self.friction[lane]),
+                friction: Some(friction),
                 cohesive: Some(self.cohesive[lane]),
                 ..PairProperties::default()
             };
             let contact = contact(
                 &pair,
-                geometry::spheres(branch, squared, self.radius[0][lane], self.radius[1][lane]),
+                geometry::spheres(branch, squared, radius_i, radius_j),
                 [mass_i, mass_j],
                 velocity_i - velocity_j,
                 [angular_i, angular_j],
             );
             let history = &mut histories[lane];
             self.alive[lane] = u64::from((squared > 0.0) & model.alive(contact.geometry.overlap, history));
-            let action = model.evaluate(&contact, &shared, elapsed, history);
+            let action = model.act(&contact, &shared, elapsed, history);
             let (force, on_i, on_j) = (action.force, action.torque_i, action.torque_j);
             self.force[0][lane] = [force.x, force.y, force.z, on_i.x];
             self.force[1][lane] = [-force.x, -force.y, -force.z, on_j.x];

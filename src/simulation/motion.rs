@@ -141,8 +141,29 @@ impl<'a> Chunk<'a> {
     }
 }
 
+/// A pass, compiled for each width of vectors that processors have; the bits are the same for all.
+struct Task<'a, 'b, H> {
+    chunk: &'a mut Chunk<'b>,
+    pass: Pass,
+    contacts: &'a Contacts<H>,
+}
+
+impl<H: Memory> pulp::NullaryFnOnce for Task<'_, '_, H> {
+    type Output = Moved;
+
+    #[inline(always)]
+    fn call(self) -> Moved {
+        self.chunk.pass_here(self.pass, self.contacts)
+    }
+}
+
 impl Chunk<'_> {
     pub(super) fn pass<H: Memory>(&mut self, pass: Pass, contacts: &Contacts<H>) -> Moved {
+        pulp::Arch::new().dispatch(Task { chunk: self, pass, contacts })
+    }
+
+    #[inline(always)]
+    fn pass_here<H: Memory>(&mut self, pass: Pass, contacts: &Contacts<H>) -> Moved {
         let mut moved = Moved::default();
         for at in 0..self.place.len() {
             let load = &mut self.load[at];

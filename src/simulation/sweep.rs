@@ -50,6 +50,8 @@ struct View<'a, M: ContactModel> {
     model: M,
     shared: &'a M::Shared,
     table: &'a [Option<PairProperties>],
+    /// Values of all pairs of particles, if they are of one material.
+    only: Option<&'a PairProperties>,
     materials: usize,
     bodies: &'a [Body],
     plane_radius_factor: Option<f64>,
@@ -85,6 +87,7 @@ impl<M: ContactModel> Simulation<M> {
             model: self.model,
             shared: &self.shared,
             table: &self.table,
+            only: self.particles.material().and_then(|only| self.table[only * (self.materials + 1)].as_ref()),
             materials: self.materials,
             bodies: &self.bodies,
             plane_radius_factor: self.plane_radius_factor,
@@ -176,12 +179,9 @@ impl<M: ContactModel> View<'_, M> {
     #[inline(always)]
     fn batches(&self, local: Local, block: &mut Block<M::History>, loads: &mut [Load]) {
         let mut batch = Batch::new();
-        let only = if let [Some(properties)] = self.table {
+        if let Some(properties) = self.only {
             (0..LANES).for_each(|lane| batch.set_properties(lane, properties));
-            true
-        } else {
-            false
-        };
+        }
         let (first, inside) = (block.first, block.inside);
         let (candidates, exports) = (&block.pairs.candidates[..], &mut block.exports[..]);
         let (histories, living) = (&mut block.pairs.history[..], &mut block.pairs.alive[..]);
@@ -191,13 +191,15 @@ impl<M: ContactModel> View<'_, M> {
             for (slot, lane) in slots.iter().zip(0..LANES) {
                 let pair = candidates[*slot as usize];
                 let motions = local.motions(pair);
-                batch.fill(lane, local.places(pair), motions, &self.rows[pair.image()], &histories[*slot as usize]);
-                if !only {
-                    let row = motions[0].material as usize * self.materials;
-                    if let Some(properties) = &self.table[row + motions[1].material as usize] {
-                        batch.set_properties(lane, properties);
-                    }
+                let properties = self.only.or_else(|| {
+                    self.table[motions[0].material as usize * self.materials + motions[1].material as usize].as_ref()
+                });
+                let Some(properties) = properties else { continue };
+                if self.only.is_none() {
+                    batch.set_properties(lane, properties);
                 }
+                let (row, history) = (&self.rows[pair.image()], &histories[*slot as usize]);
+                batch.fill(lane, local.places(pair), motions, row, properties.friction, history);
             }
             batch.evaluate(self.model, *self.shared, self.elapsed);
             for (slot, lane) in slots.iter().zip(0..LANES) {

@@ -13,9 +13,10 @@ use crate::laws::moments::elastic_plastic_rolling::{Dashpot as Damper, ElasticPl
 use crate::laws::moments::twisting::{Spring, Twisting};
 use crate::laws::normal::cohesive::DashpotLimit;
 use crate::laws::normal::hysteretic_branches::Rule;
-use crate::laws::normal::luding_sintering::{Cooling, Sliding};
+use crate::laws::normal::luding_sintering::{Cooling, LudingSintering, Sliding};
 use crate::laws::registry::{Normal, Specification, Tangential};
 use crate::laws::slider::History;
+use crate::laws::tangential::luding_sintering::LudingSintering as SinteringFriction;
 use crate::laws::tangential::options::{Dashpot, Options};
 
 impl SceneModel {
@@ -84,7 +85,7 @@ fn normal(law: &NormalLaw, sliding: Sliding, mirror: &Mirror) -> Result<Normal, 
             melting_range,
             relaxation_time,
             cooling,
-        } => Normal::LudingSintering {
+        } => Normal::LudingSintering(LudingSintering {
             k1: k1.si(),
             k2: k2.si(),
             kc: kc.si(),
@@ -98,7 +99,7 @@ fn normal(law: &NormalLaw, sliding: Sliding, mirror: &Mirror) -> Result<Normal, 
                 CaseCooling::Implicit => Cooling::Implicit,
             },
             sliding,
-        },
+        }),
         NormalLaw::Jkr {} | NormalLaw::WaltonCohesive { .. } => {
             let known = "`hertz`, `dmt`, `sjkr`, `sjkr2`, `linear_spring_dashpot`, `luding_hysteretic` and \
                          `luding_sintering`";
@@ -124,11 +125,13 @@ fn tangential(law: &TangentialLaw, mirror: &Mirror) -> Result<Tangential, Proble
             dashpot: Dashpot::Constant { value: dashpot.si() },
             options: options(Options::plain().history),
         },
-        TangentialLaw::LudingSintering { stiffness_ratio, dashpot, friction, .. } => Tangential::LudingSintering {
-            stiffness_ratio: stiffness_ratio.get(),
-            dashpot: dashpot.si(),
-            softens: *friction == HotFriction::Softens,
-        },
+        TangentialLaw::LudingSintering { stiffness_ratio, dashpot, friction, .. } => {
+            Tangential::LudingSintering(SinteringFriction {
+                stiffness_ratio: stiffness_ratio.get(),
+                dashpot: dashpot.si(),
+                softens: *friction == HotFriction::Softens,
+            })
+        }
         TangentialLaw::WaltonFriction { .. } => {
             let known = "`frictionless`, `mindlin`, `linear_history` and `luding_sintering`";
             return Err(unknown("model.tangential.law", tag(law, "law"), known));

@@ -9,7 +9,7 @@ use crate::case::protocol::Action;
 use crate::case::schema::{Boundary, Case};
 use crate::domain::Domain;
 use crate::error::{Error, Problem};
-use crate::laws::registry::Specification;
+use crate::laws::registry::{Normal, Specification};
 use crate::simulation::SKIN;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -48,7 +48,7 @@ pub fn heat(case: &Case, scene: &Scene, laws: &Specification) -> Result<(), Prob
     let start = case.temperature.map(|temperature| ("temperature".to_owned(), temperature.si()));
     for (key, temperature) in start.into_iter().chain(ramps) {
         let value = || format!("{temperature} K");
-        if let Some(law) = laws.normal.sintering()
+        if let Normal::LudingSintering(law) = laws.normal
             && law.softened(temperature) <= 0.0
         {
             let most = law.melting_temperature + 18.0 * law.melting_range;

@@ -36,7 +36,8 @@ impl Branches {
         if largest >= self.limit {
             self.unloading
         } else {
-            self.loading + (self.unloading - self.loading) * (largest / self.limit)
+            // The slope is the same for all contacts: it is divided once.
+            self.loading + (self.unloading - self.loading) / self.limit * largest
         }
     }
 

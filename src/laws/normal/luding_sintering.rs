@@ -38,6 +38,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::Problem;
+use crate::laws::registry::within;
 use crate::laws::{Approach, NormalLaw, NormalState, PairLaw, Surroundings};
 
 use super::hysteretic_branches::Branches;
@@ -65,10 +67,15 @@ pub enum Sliding {
 }
 
 /// The law.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LudingSintering {
-    /// k1, k2, kc and l.
-    pub branches: Branches,
+    /// k1 [N/m].
+    pub k1: f64,
+    /// k2 [N/m].
+    pub k2: f64,
+    /// kc [N/m].
+    pub kc: f64,
     /// Fluid overlap [m].
     pub fluid_overlap: f64,
     /// Dashpot constant [kg/s].
@@ -85,12 +92,41 @@ pub struct LudingSintering {
     pub sliding: Sliding,
 }
 
+/// The law whose sliding contacts forget: the sliding rule `brittle`.
+#[derive(Clone, Copy, Debug)]
+pub struct Brittle(pub LudingSintering);
+
 impl LudingSintering {
+    /// Refuses values outside the range of the law.
+    ///
+    /// # Errors
+    /// The first such value: key, value, range.
+    pub fn check(&self) -> Result<(), Problem> {
+        let Self { k1, k2, kc, fluid_overlap, dashpot, melting_temperature, melting_range, relaxation_time, .. } =
+            *self;
+        within("model.normal.k1", k1, k1 > 0.0, "above 0 N/m")?;
+        within("model.normal.k2", k2, k2 > k1, "above k1")?;
+        within("model.normal.kc", kc, kc >= 0.0, "at least 0 N/m")?;
+        within("model.normal.fluid_overlap", fluid_overlap, fluid_overlap > 0.0, "above 0 m")?;
+        within("model.normal.dashpot", dashpot, dashpot >= 0.0, "at least 0 kg/s")?;
+        within("model.normal.melting_temperature", melting_temperature, melting_temperature > 0.0, "above 0 K")?;
+        within("model.normal.melting_range", melting_range, melting_range > 0.0, "above 0 K")?;
+        within("model.normal.relaxation_time", relaxation_time, relaxation_time > 0.0, "above 0 s")
+    }
+
+    /// k1, k2, kc and l.
+    #[must_use]
+    #[inline(always)]
+    pub fn branches(&self) -> Branches {
+        let limit = self.k2 / (self.k2 - self.k1) * self.fluid_overlap;
+        Branches { loading: self.k1, unloading: self.k2, cohesive: self.kc, limit }
+    }
+
     /// k1(T): the loading stiffness that a temperature [K] asks for [N/m].
     #[must_use]
     pub fn softened(&self, temperature: f64) -> f64 {
         let depth = (self.melting_temperature - temperature) / self.melting_range;
-        0.5 * self.branches.loading * (1.0 + libm::tanh(depth))
+        0.5 * self.k1 * (1.0 + libm::tanh(depth))
     }
 
     /// k1(T,t) a step `dt` [s] after it was `now` [N/m].
@@ -109,7 +145,7 @@ impl LudingSintering {
     #[must_use]
     #[inline(always)]
     pub fn offset(&self, largest: f64, loading: f64) -> f64 {
-        (1.0 - loading / self.branches.stiffness(largest)) * largest
+        (1.0 - loading / self.branches().stiffness(largest)) * largest
     }
 
     /// The largest overlap [m] whose plastic offset is `offset` [m] at the loading stiffness `loading` [N/m]:
@@ -117,20 +153,22 @@ impl LudingSintering {
     #[must_use]
     #[inline(always)]
     pub fn largest(&self, offset: f64, loading: f64) -> f64 {
-        let Branches { loading: cold, unloading, limit, .. } = self.branches;
+        let Branches { loading: cold, unloading, limit, .. } = self.branches();
         let slope = (unloading - cold) / limit;
         // slope m^2 + linear m = offset cold.
         let linear = cold - loading - offset * slope;
         let root = (linear * linear + 4.0 * slope * offset * cold).sqrt();
-        let below = if linear > 0.0 { 2.0 * offset * cold / (linear + root) } else { (root - linear) / (2.0 * slope) };
-        if below < limit { below } else { offset / (1.0 - loading / unloading) }
+        // Divisors that all contacts share stand by themselves: they are divided by once.
+        let (halved, softer) = (1.0 / (2.0 * slope), 1.0 / (1.0 - loading / unloading));
+        let below = if linear > 0.0 { 2.0 * offset * cold / (linear + root) } else { (root - linear) * halved };
+        if below < limit { below } else { offset * softer }
     }
 
     /// The largest overlap [m] when the loading stiffness rises from `before` to `now` [N/m].
     #[must_use]
     #[inline(always)]
     pub fn cooled(&self, largest: f64, before: f64, now: f64) -> f64 {
-        let stiffness = self.branches.stiffness(largest);
+        let stiffness = self.branches().stiffness(largest);
         let offset = self.offset(largest, before).min(self.fluid_overlap);
         let grown = match self.cooling {
             // A new contact, whose K is the cold k1, has no offset to keep.
@@ -162,22 +200,29 @@ impl NormalLaw for LudingSintering {
     }
 
     #[inline(always)]
+    fn renews(&self, &(loading, before): &Self::Shared) -> bool {
+        loading > before
+    }
+
+    #[inline(always)]
+    fn renew(&self, &(loading, before): &Self::Shared, history: &mut f64) {
+        *history = self.cooled(*history, before, loading);
+    }
+
+    #[inline(always)]
     fn evaluate(
         &self,
         pair: &PairLaw,
         approach: &Approach,
-        &(loading, before): &Self::Shared,
+        &(loading, _): &Self::Shared,
         history: &mut f64,
     ) -> NormalState {
-        let Branches { loading: cold, unloading, cohesive, .. } = self.branches;
+        let (cold, branches) = (self.k1, self.branches());
         let overlap = approach.overlap;
         let share = loading / cold;
-        let cohesion = if pair.cohesive { cohesive / unloading * share } else { 0.0 };
-        if loading > before {
-            *history = self.cooled(*history, before, loading);
-        }
+        let cohesion = if pair.cohesive { self.kc / self.k2 * share } else { 0.0 };
         // All branches are evaluated and one is chosen, so that several contacts are at a time.
-        let known = self.branches.stiffness(*history);
+        let known = branches.stiffness(*history);
         let offset = self.offset(*history, loading);
         let line = known * (overlap - offset.min(self.fluid_overlap));
         let loads = (offset < self.fluid_overlap) & (line >= loading * overlap);
@@ -185,7 +230,7 @@ impl NormalLaw for LudingSintering {
         let fallen = self.largest((1.0 + cohesion) * overlap, loading);
         let unloaded = if holds { *history } else { fallen };
         *history = if loads { overlap } else { unloaded };
-        let stiffness = self.branches.stiffness(*history);
+        let stiffness = branches.stiffness(*history);
         let pulled = if holds { line } else { -cohesion * stiffness * overlap };
         let elastic = if loads { loading * overlap } else { pulled };
         let pull_off = (stiffness - loading) * *history * (cohesion / (1.0 + cohesion));
@@ -204,19 +249,50 @@ impl NormalLaw for LudingSintering {
     }
 
     #[inline(always)]
+    fn finish(&self, state: NormalState, sliding: bool, _: f64, _: &Self::Shared, _: &mut f64) -> NormalState {
+        let breaks = (self.sliding != Sliding::Off) & sliding & (state.elastic < 0.0);
+        let choose = |value: f64| if breaks { 0.0 } else { value };
+        NormalState { force: choose(state.force), elastic: choose(state.elastic), ..state }
+    }
+}
+
+impl NormalLaw for Brittle {
+    type History = f64;
+    type Shared = (f64, f64);
+    const BATCHED: bool = true;
+    const SHARED: &'static [(&'static str, &'static str)] = LudingSintering::SHARED;
+
+    fn advance(&self, shared: &mut Self::Shared, surroundings: &Surroundings, dt: f64) {
+        self.0.advance(shared, surroundings, dt);
+    }
+
+    #[inline(always)]
+    fn renews(&self, shared: &Self::Shared) -> bool {
+        self.0.renews(shared)
+    }
+
+    #[inline(always)]
+    fn renew(&self, shared: &Self::Shared, history: &mut f64) {
+        self.0.renew(shared, history);
+    }
+
+    #[inline(always)]
+    fn evaluate(&self, pair: &PairLaw, approach: &Approach, shared: &Self::Shared, history: &mut f64) -> NormalState {
+        self.0.evaluate(pair, approach, shared, history)
+    }
+
+    #[inline(always)]
     fn finish(
         &self,
         state: NormalState,
         sliding: bool,
         overlap: f64,
-        &(loading, _): &Self::Shared,
+        shared: &Self::Shared,
         history: &mut f64,
     ) -> NormalState {
-        let breaks = (self.sliding != Sliding::Off) & sliding & (state.elastic < 0.0);
-        if self.sliding == Sliding::Brittle {
-            *history = if breaks { self.largest(overlap, loading) } else { *history };
-        }
-        let choose = |value: f64| if breaks { 0.0 } else { value };
-        NormalState { force: choose(state.force), elastic: choose(state.elastic), ..state }
+        let forgets = sliding & (state.elastic < 0.0);
+        let fallen = self.0.largest(overlap, shared.0);
+        *history = if forgets { fallen } else { *history };
+        self.0.finish(state, sliding, overlap, shared, history)
     }
 }

@@ -13,6 +13,8 @@
 //! (2005) 455, equations 14 to 24. Invariants: the cap. An arm of a radius turns a pair that overlaps: its angular
 //! momentum is kept up to the overlap.
 
+use serde::{Deserialize, Serialize};
+
 use crate::laws::rotation::Rotation;
 use crate::laws::slider::{Cap, History, Increment, Memory, Order};
 use crate::laws::{Contact, NormalState, TangentialLaw, TangentialState};
@@ -20,7 +22,8 @@ use crate::laws::{Contact, NormalState, TangentialLaw, TangentialState};
 use super::options::{Arm, ArmRule, Friction, Options};
 
 /// The law.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LudingSintering {
     /// Stiffness as a share of the unloading stiffness [-].
     pub stiffness_ratio: f64,
