@@ -30,7 +30,7 @@ from cross_check.curves import curves, drawn, sweeps
 from cross_check.engine import Case, CaseError, case_file, load_case
 from cross_check.histories import histories
 from cross_check.record import RecordError, read
-from cross_check.report.campaign import Campaign, CaseInfo, CurveSet, SourceRun
+from cross_check.report.campaign import Campaign, CaseInfo, CurveSet, SourceRun, SweepPlot
 from cross_check.scene import Scene
 
 INDEX = "campaign.json"
@@ -73,11 +73,11 @@ def comparisons(finished: Finished, expected: Path | None = None) -> list[Compar
 
 
 def write(
-    finished: Finished, folder: Path, expected: Path | None = None, pdf: bool = True
+    finished: Finished, folder: Path, expected: Path | None = None, pdf: bool = True, figures: bool = True
 ) -> tuple[Path, list[Comparison]]:
     """Writes verdicts, JUnit and the report into `folder`; returns the page and the comparisons.
 
-    Drawing takes most of the time: with `pdf` false the figures are SVG only.
+    Drawing takes most of the time: with `pdf` false the figures are SVG only, with `figures` false there are none.
     """
     verdicts = comparisons(finished, expected)
     outcomes = [outcome for group in finished.results.values() for outcome in group.values()]
@@ -100,19 +100,8 @@ def write(
                 for outcome in outcomes
                 if (deck := outcome.deck) is not None
             },
-            curves=[
-                item
-                for case in finished.cases
-                for name in drawn(case, finished.results)
-                for item in _figures(case, name, finished)
-            ]
-            + [item for case in finished.cases for item in bed_curves(case, finished.results, finished.codes)],
-            sweeps=[
-                plot
-                for case in finished.cases
-                for draw in (sweeps, bed_seeds)
-                for plot in draw(case, finished.results, finished.codes)
-            ],
+            curves=_curves(finished) if figures else [],
+            sweeps=_sweeps(finished) if figures else [],
             environment=environment(),
             changes=changed,
             trends=over_time,
@@ -122,6 +111,27 @@ def write(
         pdf,
     )
     return page, verdicts
+
+
+def _curves(finished: Finished) -> list[CurveSet]:
+    """The curves of every scene that is drawn, then those of beds."""
+    scenes = [
+        item
+        for case in finished.cases
+        for name in drawn(case, finished.results)
+        for item in _figures(case, name, finished)
+    ]
+    return scenes + [item for case in finished.cases for item in bed_curves(case, finished.results, finished.codes)]
+
+
+def _sweeps(finished: Finished) -> list[SweepPlot]:
+    """The plots over an axis of a case, and over the seeds of its beds."""
+    return [
+        plot
+        for case in finished.cases
+        for draw in (sweeps, bed_seeds)
+        for plot in draw(case, finished.results, finished.codes)
+    ]
 
 
 def _figures(case: Case, name: str, finished: Finished) -> list[CurveSet]:

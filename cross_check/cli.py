@@ -138,6 +138,11 @@ def deck_(case: str, code: str, out: Path, overrides: tuple[str, ...]) -> None:
 @click.option("--any-version", is_flag=True, help="Runs versions for which the translation is not proved, too.")
 @click.option("--expected", type=click.Path(path_type=Path), default=None, help="Expected verdicts of own cases.")
 @click.option("--time-limit", type=float, default=300.0, show_default=True, help="Seconds per deck.")
+@click.option(
+    "--figures/--no-figures",
+    default=True,
+    help="Draws the figures of the report; `cross-check report` draws them later.",
+)
 @click.option("--out", type=click.Path(path_type=Path), default=Path("out"), show_default=True, help="Output folder.")
 def run_(
     what: str,
@@ -149,6 +154,7 @@ def run_(
     any_version: bool,
     expected: Path | None,
     time_limit: float,
+    figures: bool,
     out: Path,
 ) -> None:
     """Runs a case or a suite natively and in every code, compares, and reports."""
@@ -160,7 +166,7 @@ def run_(
     if jobs is not None:
         options = replace(options, jobs=jobs)
     if what == suites.STUDY:
-        study = sintering.Options(full, seeds, options.jobs, live, expected)
+        study = sintering.Options(full, seeds, options.jobs, live, figures, expected)
         with _refusing():
             result = sintering.run(study, out, _progress)
         for line in result.lines:
@@ -177,7 +183,7 @@ def run_(
         ):
             finished = campaign.run(suite, cases, options, Path(work), progress)
         campaign.keep(finished, out)
-        _conclude(finished, out, expected)
+        _conclude(finished, out, expected, figures=figures)
 
 
 @main.command("compare")
@@ -272,9 +278,11 @@ def _progress(total: int) -> Generator[runs.Progress]:
     yield tell
 
 
-def _conclude(finished: campaign.Finished, out: Path, expected: Path | None = None, pdf: bool = False) -> NoReturn:
+def _conclude(
+    finished: campaign.Finished, out: Path, expected: Path | None = None, pdf: bool = False, figures: bool = True
+) -> NoReturn:
     """Reports, and leaves with the exit code of the contract."""
-    page, verdicts = campaign.write(finished, out, expected, pdf)
+    page, verdicts = campaign.write(finished, out, expected, pdf, figures)
     if not verdicts:
         _fail(f"nothing was compared: the cases state no gate for the sources {', '.join(('native', *finished.codes))}")
     for line in campaign.rates(finished):

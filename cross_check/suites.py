@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from cross_check import PACKAGE
+from cross_check import PACKAGE, toml_file
 from cross_check.engine import Case, CaseError, Variant, load_case
 
 FOLDER = PACKAGE / "cases"
@@ -14,9 +14,31 @@ SUITES = ("standard", "laws", "collisions", "snapshots", "bulk", "sintering", "f
 STUDY = "sintering"
 
 
+@dataclass(frozen=True)
+class Listed:
+    """A case of the package as its file names it; what it contains is not read."""
+
+    path: Path
+    name: str
+    suites: tuple[str, ...]
+
+
+def listed() -> list[Listed]:
+    """All cases of the package, by name. Raises TomlError."""
+    tables = ((path, toml_file.read(path)) for path in FOLDER.glob("*.toml"))
+    found = [Listed(path, table["name"], tuple(table.get("suites", ()))) for path, table in tables]
+    return sorted(found, key=lambda case: case.name)
+
+
 def every_case() -> list[Case]:
     """All cases of the package, by name."""
-    return sorted((load_case(path) for path in FOLDER.glob("*.toml")), key=lambda case: case.name)
+    return [load_case(case.path) for case in listed()]
+
+
+def named(name: str) -> Case:
+    """The case of the package with this name. Raises CaseError."""
+    (case,) = select(name)[1]
+    return case
 
 
 def with_seeds(case: Case, count: int) -> Case:
@@ -38,14 +60,14 @@ def select(what: str) -> tuple[str, list[Case]]:
     if path.suffix == ".toml" or path.is_file():
         case = load_case(path)
         return case.name, [case]
-    cases = every_case()
+    cases = listed()
     if what in SUITES:
-        chosen = [case for case in cases if what in case.suites]
+        chosen = [load_case(case.path) for case in cases if what in case.suites]
         if not chosen:
             raise CaseError(f"the suite {what} has no cases in this version")
         return what, chosen
-    named = [case for case in cases if case.name == what]
-    if not named:
+    found = [load_case(case.path) for case in cases if case.name == what]
+    if not found:
         names = ", ".join(case.name for case in cases)
         raise CaseError(f"{what}: no such suite, case or file (suites: {', '.join(SUITES)}; cases: {names})")
-    return what, named
+    return what, found

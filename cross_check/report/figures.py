@@ -26,7 +26,7 @@ from cross_check.report.thinning import MOST_DIFFERENCES, thin
 
 STYLE = Path(__file__).with_name("style.mplstyle")
 WORKERS = 2
-FEW = 6  # up to here starting workers takes longer than drawing
+FEW = 20  # up to here starting workers takes longer than drawing
 
 
 @dataclass(frozen=True)

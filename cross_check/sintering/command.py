@@ -19,12 +19,16 @@ from cross_check.sintering.targets import judge, targets
 
 @dataclass(frozen=True)
 class Options:
-    """How the study is run: its form, seeds of every sample (the plan's if None), runs at a time, nothing kept used."""
+    """How the study is run.
+
+    Its form, seeds of every sample (the plan's if None), runs at a time, nothing kept used, and whether it draws.
+    """
 
     full: bool = False
     seeds: int | None = None
     jobs: int = 1
     live: bool = False
+    figures: bool = True
     expected: Path | None = None
 
 
@@ -51,7 +55,7 @@ def run(options: Options, out: Path, progress: Callable[[int], AbstractContextMa
     study = Study(outcomes, options.full, dict(plain.scene["model"]["normal"]), options.seeds)
     rows = [judge(target, study) for target in asked]
     verdicts = judgement.comparisons(rows, options.full, options.expected)
-    page = report.write(out, study, rows, verdicts, report.Started(started, time.monotonic() - begin))
+    page = report.write(out, study, rows, verdicts, report.Started(started, time.monotonic() - begin), options.figures)
     return Result(page, verdicts, [*_failures(study), *_rates(study)])
 
 

@@ -27,12 +27,14 @@ class Started:
     duration: float
 
 
-def write(out: Path, study: Study, rows: list[Row], verdicts: list[Comparison], started: Started) -> Path:
-    """Writes everything into `out`; returns the path of the page."""
+def write(
+    out: Path, study: Study, rows: list[Row], verdicts: list[Comparison], started: Started, draw: bool = True
+) -> Path:
+    """Writes everything into `out`, figures if `draw`; returns the path of the page."""
     report = out / "report"
     report.mkdir(parents=True, exist_ok=True)
     table.write_all(rows, out)
-    drawn, missing = figures.draw_all(study, out / "figures")
+    drawn, missing = figures.draw_all(study, out / "figures") if draw else ([], [])
     info = CaseInfo(SUITE, QUESTION, "L5", SOURCE, list(dict.fromkeys(row.target.id for row in rows)))
     left_out = [f"{sum(row.verdict == LEFT_OUT for row in rows)} targets, which run with --full"]
     summary = Campaign(

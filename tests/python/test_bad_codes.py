@@ -24,7 +24,18 @@ def test_a_broken_code_gets_a_verdict_that_says_why(
     monkeypatch.setenv("CROSSGRAIN_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("CROSSGRAIN_LAMMPS", str(program))
     out = tmp_path / "out"
-    command = ["run", "free-fall", "--codes", "lammps", "--live", "--time-limit", "2", "--out", str(out)]
+    command = [
+        "run",
+        "free-fall",
+        "--no-figures",
+        "--codes",
+        "lammps",
+        "--live",
+        "--time-limit",
+        "2",
+        "--out",
+        str(out),
+    ]
     done = CliRunner().invoke(main, command, catch_exceptions=False)
     assert done.exit_code == UNEXPECTED
     against = [item for item in json.loads((out / "verdicts.json").read_text()) if "lammps" in item["right"]["source"]]

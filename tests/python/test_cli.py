@@ -60,8 +60,8 @@ def test_a_case_runs_everywhere_and_is_compared_anew_from_its_folder(tmp_path: P
 @installed
 def test_a_live_run_repeats_the_cached_one_bit_for_bit(tmp_path: Path) -> None:
     first, second = tmp_path / "first", tmp_path / "second"
-    assert call("run", "damped-wall", "--out", str(first)).exit_code == AS_EXPECTED
-    assert call("run", "damped-wall", "--live", "--out", str(second)).exit_code == AS_EXPECTED
+    assert call("run", "damped-wall", "--no-figures", "--out", str(first)).exit_code == AS_EXPECTED
+    assert call("run", "damped-wall", "--no-figures", "--live", "--out", str(second)).exit_code == AS_EXPECTED
     assert verdicts(first) == verdicts(second)
 
 
@@ -69,7 +69,7 @@ def test_recorded_runs_stand_in_for_missing_codes_and_are_marked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     without_codes(monkeypatch)
-    done = call("run", "damped-pair", "--out", str(tmp_path / "out"))
+    done = call("run", "damped-pair", "--no-figures", "--out", str(tmp_path / "out"))
     assert done.exit_code == AS_EXPECTED, done.output
     for item in verdicts(tmp_path / "out"):
         compared = item["discrepancy"] is not None and item["check"] != "convergence"
@@ -78,7 +78,7 @@ def test_recorded_runs_stand_in_for_missing_codes_and_are_marked(
 
 def test_recorded_runs_do_not_stand_in_for_live_ones(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     without_codes(monkeypatch)
-    done = call("run", "free-fall", "--live", "--out", str(tmp_path / "out"))
+    done = call("run", "free-fall", "--no-figures", "--live", "--out", str(tmp_path / "out"))
     assert done.exit_code == UNEXPECTED
     missing = [item for item in verdicts(tmp_path / "out") if item["right"]["source"] in ADAPTERS]
     assert missing
@@ -88,7 +88,7 @@ def test_recorded_runs_do_not_stand_in_for_live_ones(tmp_path: Path, monkeypatch
 @installed
 def test_another_version_of_a_code_is_not_comparable(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ADAPTERS["lammps"], "proved_versions", ("1 Jan 1970",))
-    arguments = ("run", "free-fall", "--codes", "lammps", "--out", str(tmp_path / "out"))
+    arguments = ("run", "free-fall", "--no-figures", "--codes", "lammps", "--out", str(tmp_path / "out"))
     assert call(*arguments).exit_code == UNEXPECTED
     (mirror,) = (item for item in verdicts(tmp_path / "out") if item["check"] == "mirror")
     assert mirror["verdict"].startswith("not-comparable(lammps")
@@ -98,8 +98,20 @@ def test_another_version_of_a_code_is_not_comparable(tmp_path: Path, monkeypatch
 
 def test_the_matrix_of_a_part_of_the_codes_is_complete(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     without_codes(monkeypatch)
-    assert call("run", "free-fall", "--codes", "yade", "--out", str(tmp_path / "out")).exit_code == AS_EXPECTED
+    arguments = ("run", "free-fall", "--no-figures", "--codes", "yade", "--out", str(tmp_path / "out"))
+    assert call(*arguments).exit_code == AS_EXPECTED
     assert {item["right"]["source"] for item in verdicts(tmp_path / "out") if item["check"] == "plain"} == {"yade"}
+
+
+def test_figures_are_left_out_where_asked_and_drawn_by_the_report(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert call("run", "free-fall", "--codes", "", "--no-figures", "--out", str(out)).exit_code == AS_EXPECTED
+    before = verdicts(out)
+    assert "Largest displacement over time" not in (out / "report" / "index.html").read_text()
+    assert not list(out.rglob("*.svg"))
+    assert call("report", str(out)).exit_code == AS_EXPECTED
+    assert verdicts(out) == before
+    assert "Largest displacement over time" in (out / "report" / "index.html").read_text()
 
 
 def test_a_case_that_is_no_impact_has_figures_of_what_it_compares(tmp_path: Path) -> None:

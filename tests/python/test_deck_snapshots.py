@@ -7,6 +7,7 @@ CROSSGRAIN_UPDATE_SNAPSHOTS=1.
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 from pathlib import Path
@@ -15,13 +16,14 @@ import pytest
 
 from cross_check.adapters import ADAPTERS
 from cross_check.adapters.interface import Deck, NotComparable
-from cross_check.suites import every_case
+from cross_check.suites import listed, named
 
 SNAPSHOTS = Path(__file__).parent / "snapshots"
 UPDATE = os.environ.get("CROSSGRAIN_UPDATE_SNAPSHOTS") == "1"
 # Length up to which a file is stored whole.
 LONG = 40_000
-CASES = {case.name: case for case in every_case()}
+NAMES = [case.name for case in listed()]
+case_of = functools.cache(named)
 
 
 def shown(text: str) -> str:
@@ -32,7 +34,7 @@ def shown(text: str) -> str:
 def decks(case: str, code: str) -> dict[str, Deck | str]:
     """Decks of all variants, or the reason why a variant has none."""
     found: dict[str, Deck | str] = {}
-    for variant in CASES[case].variants:
+    for variant in case_of(case).variants:
         try:
             found[variant.member or case] = ADAPTERS[code].deck(variant.scenes[0])
         except NotComparable as reason:
@@ -41,7 +43,7 @@ def decks(case: str, code: str) -> dict[str, Deck | str]:
 
 
 @pytest.mark.parametrize("code", ADAPTERS)
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", NAMES)
 def test_decks_are_those_that_were_reviewed(case: str, code: str) -> None:
     found = decks(case, code)
     written = [deck for deck in found.values() if isinstance(deck, Deck)]
@@ -58,7 +60,7 @@ def test_decks_are_those_that_were_reviewed(case: str, code: str) -> None:
 
 
 @pytest.mark.parametrize("code", ADAPTERS)
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", NAMES)
 def test_decks_are_the_same_bytes_twice(case: str, code: str) -> None:
     first, second = decks(case, code), decks(case, code)
     for one, other in zip(first.values(), second.values(), strict=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import replace
 
@@ -9,14 +10,14 @@ import pytest
 
 from cross_check.reference import closed_forms
 from cross_check.scene import Scene
-from cross_check.suites import every_case
+from cross_check.suites import named
 
-CASES = {case.name: case for case in every_case()}
+case_of = functools.cache(named)
 FORMS = closed_forms()
 
 
 def scene(case: str, variant: str) -> Scene:
-    return next(item.scenes[0] for item in CASES[case].variants if item.name == variant)
+    return next(item.scenes[0] for item in case_of(case).variants if item.name == variant)
 
 
 def with_friction(whole: Scene, friction: float) -> Scene:

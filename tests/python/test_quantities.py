@@ -13,9 +13,9 @@ from cross_check.compare.quantities import QUANTITIES, Undefined, contact_durati
 from cross_check.record import Array, Code, Header, RunRecord
 from cross_check.reference import thin
 from cross_check.scene import Scene
-from cross_check.suites import every_case
+from cross_check.suites import named
 
-SCENE = next(case for case in every_case() if case.name == "chung-ooi-2").variants[0].scenes[0]
+SCENE = named("chung-ooi-2").variants[0].scenes[0]
 RADIUS, MASS = SCENE.particles[0].radius, SCENE.particles[0].mass
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import replace
 from typing import Any, cast
@@ -11,13 +12,13 @@ from scipy import integrate
 
 from cross_check.reference import closed_forms
 from cross_check.scene import Scene
-from cross_check.suites import every_case
+from cross_check.suites import named
 
-CASES = {case.name: case for case in every_case()}
+case_of = functools.cache(named)
 
 
 def scene(case: str, variant: str) -> Scene:
-    return next(item.scenes[0] for item in CASES[case].variants if item.name == variant)
+    return next(item.scenes[0] for item in case_of(case).variants if item.name == variant)
 
 
 # Peak forces and durations of Chung and Ooi's tests as printed by the suites that restate them.

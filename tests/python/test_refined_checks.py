@@ -14,9 +14,9 @@ from cross_check.engine import Gate
 from cross_check.record import Code, Header, RunRecord
 from cross_check.reference import closed_forms
 from cross_check.scene import Scene
-from cross_check.suites import every_case
+from cross_check.suites import named
 
-SCENE = next(case for case in every_case() if case.name == "chung-ooi-2").variants[0].scenes[0]
+SCENE = named("chung-ooi-2").variants[0].scenes[0]
 FORM = "hertz_impact.peak_force"
 TARGET = float(closed_forms()[FORM](SCENE))
 # Deep refinements as `refinements = 1` and `finest = 6` make them.

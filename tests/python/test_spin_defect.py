@@ -12,9 +12,9 @@ from cross_check.compare.quantities import Undefined
 from cross_check.mirror_options import Arms, Mirror, TangentialOptions
 from cross_check.record import Code, Header, RunRecord
 from cross_check.scene import Scene
-from cross_check.suites import every_case
+from cross_check.suites import named
 
-SCENE = next(case for case in every_case() if case.name == "chung-ooi-4").variants[0].scenes[0]
+SCENE = named("chung-ooi-4").variants[0].scenes[0]
 BALL = SCENE.particles[0]
 DT = 1e-7
 SAMPLES = 200
