@@ -6,12 +6,15 @@ import csv
 import sys
 from pathlib import Path
 
+from cross_check.report.notation import ABSENT
+
 HEAD = """# What the sintering study found
 
-Written by `docs/sintering_page.py` from `table.csv` of `cross-check run sintering --full` of {date}. Each row is a claim of
-Luding, Manetsberger and Müllers (2005) with the threshold that was set for it beforehand; a cell is the mean over the
-seeds with their standard deviation, and in brackets how many of them keep the threshold alone. A claim that the model
-does not reproduce is **missed** and stays. What the numbers are is said in [the sintering study](sintering.md).
+Written by `docs/sintering_page.py` from `table.csv` of `cross-check run sintering --full` of {date}. Each row is a
+claim of Luding, Manetsberger and Müllers (2005) with the threshold that was set for it beforehand; a cell is the mean
+over the seeds with their standard deviation, and in brackets how many of them keep the threshold alone. A claim that
+the model does not reproduce is **missed** and stays. What the numbers are is said in
+[the sintering study](sintering.md).
 
 {summary}
 
@@ -24,15 +27,15 @@ Row = dict[str, str]
 def _cell(row: Row | None) -> str:
     if row is None:
         return ""
-    spread = "" if row["Spread"] in ("", "–") else f" ± {row['Spread']}"
-    kept = "" if row["Kept by"] in ("", "–") else f" ({row['Kept by']}/{row['Seeds']})"
+    spread = "" if row["Spread"] in ("", ABSENT) else f" ± {row['Spread']}"
+    kept = "" if row["Kept by"] in ("", ABSENT) else f" ({row['Kept by']}/{row['Seeds']})"
     verdict = f" **{row['Verdict']}**" if row["Verdict"] not in ("met", "reported") else ""
     return f"{row['Measured']}{spread}{kept}{verdict}"
 
 
 def _summary(rows: list[Row]) -> str:
     """How many targets are met, and which are not."""
-    judged = [row for row in rows if row["Threshold"] not in ("", "–")]
+    judged = [row for row in rows if row["Threshold"] not in ("", ABSENT)]
     missed = [row for row in judged if row["Verdict"] != "met"]
     text = f"{len(judged) - len(missed)} of {len(judged)} targets are met."
     if missed:
