@@ -196,7 +196,8 @@ class Fake:
         self.code: Code | None = Code("fake", "1", "fake 1-1")
         self.shift = 0.0
         self.ran: list[int | None] = []
-        for name in list(ADAPTERS):
+        # The last first: they come back in the opposite order, which must be the one that they had.
+        for name in reversed(list(ADAPTERS)):
             monkeypatch.delitem(ADAPTERS, name)
         adapter = Adapter("fake", ("1", "2"), lambda: self.code, self.deck, lambda scene: scene, self.run)
         monkeypatch.setitem(ADAPTERS, "fake", adapter)
