@@ -4,7 +4,7 @@
 //! is read by another, and vectorises the loop over lanes. Lanes do not depend on each other, nothing is fused or
 //! approximated: the bits are those of contacts evaluated one by one, for every width of vectors. Rows of four numbers are
 //! copied from and added to particles at once; the loop over lanes takes them apart. Every entry of a row is read: behind
-//! rows with gaps the compiler leaves the last vector of lanes to a scalar loop, an eighth of them at four times the cost.
+//! rows with gaps the compiler leaves the last vector of lanes to a scalar loop, an eighth of them at three times the cost.
 
 use crate::Vector;
 use crate::geometry;
