@@ -81,8 +81,11 @@ def measure(observables: str, context: str, columns: dict[str, Any]) -> dict[str
 def measure_units(observables: str) -> dict[str, str]:
     """SI units of observables by name; `-` for a number. `observables` as for `measure`."""
 
-def run(scene: str, threads: int = ...) -> tuple[str, dict[str, NDArray[Any]]]:
-    """Runs a scene given as JSON; returns the header of its record as JSON, and its columns (docs/formats.md)."""
+def run(scene: str, threads: int = ..., states: str | Path | None = ...) -> tuple[str, dict[str, NDArray[Any]]]:
+    """Runs a scene given as JSON; returns the header of its record as JSON, and its columns (docs/formats.md).
+
+    States from which scenes start are taken from the folder `states` and saved there, for this engine only.
+    """
 
 def main(arguments: Sequence[str | os.PathLike[str]]) -> int:
     """Runs the command line `crossgrain ARGUMENTS` and returns its exit code."""

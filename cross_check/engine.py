@@ -183,15 +183,16 @@ def build() -> str:
     return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
 
 
-def run(scene: Scene, folder: Path | None = None, threads: int = 1) -> RunRecord:
+def run(scene: Scene, folder: Path | None = None, threads: int = 1, states: Path | None = None) -> RunRecord:
     """Runs a scene and returns its record, which is also written into `folder` if there is one.
 
+    States from which scenes start are taken from the folder `states` and saved there.
     Raises CaseError or RecordError.
     """
     program = os.environ.get(PROGRAM_VARIABLE)
     if program is None:
         try:
-            header, columns = crossgrain.run(scene.to_json(), threads)
+            header, columns = crossgrain.run(scene.to_json(), threads, states)
         except ValueError as error:
             raise CaseError(str(error)) from error
         record = _record(json.loads(header), columns, scene.name)

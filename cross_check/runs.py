@@ -180,7 +180,7 @@ def _native(job: _Job, options: Options, cache: Cache, work: Path) -> Outcome:
     if not options.live and (record := cache.get(key)) is not None:
         return Outcome(job.source, job.scene, labelled(record, job.source), origin="cache", folder=cache.folder(key))
     try:
-        record = engine.run(job.scene)
+        record = engine.run(job.scene, states=work / "states")
     except (CaseError, RecordError) as error:
         return Outcome(job.source, job.scene, None, not_run(str(error)), "not run")
     if job.bed:

@@ -1,4 +1,4 @@
-//! States from which other scenes start: files named by the hash of their scene and the step.
+//! States from which other scenes start: files named by the hash of their scene and of this engine, and the step.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ pub(super) struct States<'a> {
 
 impl<'a> States<'a> {
     pub(super) fn new(scene: &Scene, options: &'a Options) -> Self {
-        Self { folder: options.states.as_deref(), hash: checkpoint::scene_hash(scene), steps: &options.save_at }
+        Self { folder: options.states.as_deref(), hash: hash(scene), steps: &options.save_at }
     }
 
     /// The next step after `step` whose state is saved.
@@ -41,6 +41,12 @@ impl<'a> States<'a> {
             _ => Ok(()),
         }
     }
+}
+
+/// Ties a state to its scene and to the sources of this engine: another one may compute other bits.
+fn hash(scene: &Scene) -> String {
+    let parts = [checkpoint::scene_hash(scene), env!("CROSSGRAIN_ENGINE").to_owned()];
+    blake3::hash(parts.join("-").as_bytes()).to_string()
 }
 
 fn file(folder: &Path, hash: &str, step: u64) -> PathBuf {
@@ -79,7 +85,7 @@ impl Visitor for Reach<'_> {
 
     fn visit<M: ContactModel>(self, model: M) -> Self::Output {
         let Self { scene, step, options } = self;
-        let hash = checkpoint::scene_hash(scene);
+        let hash = hash(scene);
         let saved = options.states.as_ref().and_then(|folder| latest(folder, &hash, step));
         let mut simulation = match saved {
             Some((found, path)) => {

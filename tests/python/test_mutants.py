@@ -66,7 +66,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     An expression E that a fault replaces by F becomes `if planted("name") { F } else { E }`: one build serves them all.
     """
     folder = tmp_path_factory.mktemp("engine")
-    for name in ("Cargo.toml", "Cargo.lock", "README.md", "benches"):
+    for name in ("Cargo.toml", "Cargo.lock", "README.md", "benches", "build.rs"):
         source = ROOT / name
         if source.is_dir():
             shutil.copytree(source, folder / name)

@@ -83,6 +83,14 @@ def test_overrides_reach_the_case_that_a_case_starts_from(tmp_path: Path) -> Non
     assert len(scene.particles) == 7
 
 
+def test_states_from_which_scenes_start_are_kept(compressed: Ran, tmp_path: Path) -> None:
+    scene, record, _ = compressed
+    for _ in range(2):
+        again = engine.run(scene, states=tmp_path)
+        assert len(list(tmp_path.iterdir())) == 2
+        assert all(np.array_equal(again[name], record[name]) for name in record.columns)
+
+
 def test_samples_of_a_stage_have_their_own_interval(heated: Ran) -> None:
     scene, record, _ = heated
     assert [stage.output_every for stage in scene.stages] == [None, None, 250, None, None]

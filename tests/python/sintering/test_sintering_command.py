@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import runpy
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +16,13 @@ import crossgrain
 from cross_check.cli import BAD_INPUT, UNEXPECTED, main
 from cross_check.engine import CaseError
 from cross_check.report.figures import Figured
+from cross_check.report.notation import ABSENT
 from cross_check.sintering import figures, plan, runner, scenes
 from cross_check.sintering.plan import Run
 from cross_check.sintering.scenes import Planned
 from cross_check.sintering.study import Study
+
+DOCS = Path(__file__).parents[3] / "docs"
 
 
 @pytest.fixture(autouse=True)
@@ -128,3 +132,18 @@ def test_runs_beside_each_other_have_processes_of_their_own(tmp_path: Path) -> N
     assert all("scene" in found[run].failure for run in runs)  # the native engine refuses it
     assert told == ["sintering-three"] * 2
     assert not list((tmp_path / "runs").iterdir())
+
+
+@pytest.mark.usefixtures("without_figures")
+def test_the_page_of_the_documentation_says_what_the_table_says(tmp_path: Path) -> None:
+    study(tmp_path)
+    with (tmp_path / "table.csv").open() as file:
+        judged = [row for row in csv.DictReader(file) if row["Threshold"] != ABSENT]
+    missed = [row for row in judged if row["Verdict"] == "missed"]
+    page: str = runpy.run_path(str(DOCS / "sintering_page.py"))["page"](tmp_path / "table.csv", "2026-11-22")
+    met = sum(row["Verdict"] == "met" for row in judged)
+    assert f"{met} of {len(judged)} targets are met" in page
+    assert missed
+    for row in missed:
+        assert f"- {row['Target']}, p = {row['p [N/m]']} N/m, N = {row['N']}: missed" in page
+        assert f"{row['Measured']} (0/1) **missed**" in page
