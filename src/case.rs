@@ -212,7 +212,7 @@ impl CaseText {
             sweep::replace(&mut table, &given.key, given.value.clone())
                 .map_err(|problem| self.invalid(None, problem))?;
         }
-        match table.clone().try_into() {
+        match sweep::typed(&table) {
             Ok(case) => Ok((table, case)),
             Err(error) => {
                 let alone = |given: &&sweep::Override| !sweep::alone(base, &given.key, &given.value);

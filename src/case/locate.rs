@@ -93,7 +93,7 @@ fn culprit<'a, 'b>(text: &str, path: &str, message: &str, leaves: &'b [Leaf<'a>]
     let fails_alone = |element: &toml::Value| {
         let mut alone = table.clone();
         super::sweep::replace(&mut alone, path, toml::Value::Array(vec![element.clone()])).is_ok()
-            && alone.try_into::<super::Case>().is_err_and(|error| error.message() == message)
+            && super::sweep::typed(&alone).is_err_and(|error| error.message() == message)
     };
     let index = found.as_array()?.iter().position(fails_alone)?;
     leaves.iter().find(|leaf| leaf.path == format!("{path}.{index}"))

@@ -108,7 +108,7 @@ fn variant(text: &CaseText, base: &Table, case: &Case, chosen: &[usize]) -> Resu
     for (key, value) in chosen_points().flat_map(|(_, point)| &point.set) {
         replace(&mut table, key, value.clone()).map_err(|problem| text.invalid(Some(&variant), problem))?;
     }
-    variant.case = match table.try_into() {
+    variant.case = match typed(&table) {
         Ok(case) => case,
         Err(error) => {
             let sets = || chosen_points().flat_map(|(_, point)| &point.set);
@@ -125,7 +125,13 @@ fn variant(text: &CaseText, base: &Table, case: &Case, chosen: &[usize]) -> Resu
 /// Whether the case is still one with this key replaced and no other.
 pub fn alone(base: &Table, key: &str, value: &Value) -> bool {
     let mut table = base.clone();
-    replace(&mut table, key, value.clone()).is_ok() && table.try_into::<Case>().is_ok()
+    replace(&mut table, key, value.clone()).is_ok() && typed(&table).is_ok()
+}
+
+/// The case that a table holds. It is read as text, as files are: a second reader of tables would double what the compiler
+/// makes of the schema.
+pub fn typed(table: &Table) -> Result<Case, toml::de::Error> {
+    toml::from_str(&table.to_string())
 }
 
 /// Indices of the points, the last axis running fastest.
