@@ -176,6 +176,7 @@ def run_(
         suite, cases = suites.select(what)
         if seeds is not None:
             cases = [suites.with_seeds(case, seeds) for case in cases]
+        suites.require_gates(cases)
         out.mkdir(parents=True, exist_ok=True)
         with (
             _progress(runs.count(cases, options)) as progress,

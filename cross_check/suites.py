@@ -51,6 +51,15 @@ def with_seeds(case: Case, count: int) -> Case:
     return replace(case, variants=tuple(kept))
 
 
+def require_gates(cases: list[Case]) -> None:
+    """Raises CaseError where no case states a gate: nothing would be compared."""
+    if any(variant.gates for case in cases for variant in case.variants):
+        return
+    judged = f", and `cross-check run {STUDY}` judges it" if all(STUDY in case.suites for case in cases) else ""
+    names = ", ".join(case.name for case in cases)
+    raise CaseError(f"{names}: no gate is stated, there is nothing to compare; `crossgrain run` runs it alone{judged}")
+
+
 def select(what: str) -> tuple[str, list[Case]]:
     """The suite's name and the cases that `what` means: a suite, the name of a case, or the path of a case file.
 

@@ -1,16 +1,12 @@
 //! Run records: `record.json` and `columns.npz` (docs/formats.md).
 
+pub mod arrays;
 pub mod checkpoint;
 
-use std::fs::{self, File};
-use std::io::BufWriter;
+use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use npyz::WriterBuilder;
-use npyz::npz::NpzWriter;
-use npyz::zip::DateTime;
-use npyz::zip::write::FileOptions;
 use serde_json::json;
 
 use crate::Vector;
@@ -368,30 +364,15 @@ impl Recorder {
 }
 
 fn write_columns(columns: Vec<RecordColumn>, path: &Path) -> std::io::Result<()> {
-    let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
+    let mut archive = arrays::Writer::create(path)?;
     for RecordColumn { name, shape, values } in columns {
         let shape: Vec<u64> = shape.into_iter().map(|length| length as u64).collect();
         match values {
-            Values::Real(values) => array(&mut archive, name, &shape, values)?,
-            Values::Count(values) => array(&mut archive, name, &shape, values)?,
+            Values::Real(values) => archive.add(name, &shape, values)?,
+            Values::Count(values) => archive.add(name, &shape, values)?,
         }
     }
-    Ok(())
-}
-
-fn array<T: npyz::AutoSerialize>(
-    archive: &mut NpzWriter<BufWriter<File>>,
-    name: &str,
-    shape: &[u64],
-    values: impl IntoIterator<Item = T>,
-) -> std::io::Result<()> {
-    let mut writer = archive
-        .array(name, FileOptions::default().last_modified_time(DateTime::default()))?
-        .default_dtype()
-        .shape(shape)
-        .begin_nd()?;
-    writer.extend(values)?;
-    writer.finish()
+    archive.finish()
 }
 
 fn header(scene: &Scene) -> serde_json::Value {

@@ -2,17 +2,12 @@
 //! `bed.data` (LAMMPS text, atom style sphere).
 
 use std::fmt::Write as _;
-use std::fs::{self, File};
-use std::io::BufWriter;
+use std::fs;
 use std::path::Path;
-
-use npyz::WriterBuilder;
-use npyz::npz::{NpzArchive, NpzWriter};
-use npyz::zip::DateTime;
-use npyz::zip::write::FileOptions;
 
 use crate::Vector;
 use crate::error::Error;
+use crate::record::arrays;
 
 use super::bed::Bed;
 
@@ -38,19 +33,12 @@ pub fn pair(bed: &Bed, folder: &Path) -> Result<(), Error> {
 }
 
 fn columns(bed: &Bed, path: &Path) -> std::io::Result<()> {
-    let mut archive = NpzWriter::new(BufWriter::new(File::create(path)?));
+    let mut archive = arrays::Writer::create(path)?;
     let named = [("position", &bed.position), ("velocity", &bed.velocity), ("angular_velocity", &bed.angular_velocity)];
     for (name, column) in named {
-        let shape = [column.len() as u64, 3];
-        let mut writer = archive
-            .array(name, FileOptions::default().last_modified_time(DateTime::default()))?
-            .default_dtype()
-            .shape(&shape)
-            .begin_nd()?;
-        writer.extend(column.iter().flat_map(|v| [v.x, v.y, v.z]))?;
-        writer.finish()?;
+        archive.add(name, &[column.len() as u64, 3], column.iter().flat_map(|v| [v.x, v.y, v.z]))?;
     }
-    Ok(())
+    archive.finish()
 }
 
 /// Reads a bed back.
@@ -61,10 +49,9 @@ pub fn read(folder: &Path) -> Result<Bed, Error> {
     let mut bed: Bed = serde_json::from_str(&text).map_err(|error| bad(error.to_string()))?;
     let path = folder.join("bed.npz");
     let failed = |reason| Error::Read { file: path.clone(), reason };
-    let mut archive = NpzArchive::open(&path).map_err(failed)?;
+    let mut archive = arrays::Reader::open(&path).map_err(failed)?;
     let mut column = |name: &str| -> Result<Vec<Vector>, Error> {
-        let array = archive.by_name(name).map_err(failed)?.ok_or_else(|| bad(format!("no column {name}")))?;
-        let values: Vec<f64> = array.into_vec().map_err(failed)?;
+        let values: Vec<f64> = archive.read(name).map_err(failed)?;
         if values.len() != 3 * bed.count {
             return Err(bad(format!("column {name} has {} values, not {}", values.len(), 3 * bed.count)));
         }

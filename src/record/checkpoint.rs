@@ -9,15 +9,15 @@ use std::fs::{self, File};
 use std::io::{Cursor, Read, Write};
 use std::path::Path;
 
-use npyz::WriterBuilder;
-use npyz::zip::write::FileOptions;
-use npyz::zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 use serde::{Deserialize, Serialize};
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use crate::Vector;
 use crate::case::scene::Scene;
 use crate::error::Error;
 use crate::laws::memory::Memory;
+
+use super::arrays;
 
 /// The version of the checkpoint format.
 pub const VERSION: u32 = 3;
@@ -115,13 +115,11 @@ impl Checkpoint {
             arrays: arrays.iter().map(|(name, bytes)| (name.clone(), blake3::hash(bytes).to_string())).collect(),
         };
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-        let options = FileOptions::default()
-            .last_modified_time(DateTime::default())
-            .compression_method(CompressionMethod::Stored);
-        archive.start_file(HEADER, options)?;
+        let stored = |bytes: &[u8]| arrays::options(CompressionMethod::Stored, bytes.len() as u64);
+        archive.start_file(HEADER, stored(&[]))?;
         archive.write_all(&serde_json::to_vec_pretty(&header)?)?;
         for (name, bytes) in &arrays {
-            archive.start_file(format!("{name}.npy"), options)?;
+            archive.start_file(format!("{name}.npy"), stored(bytes))?;
             archive.write_all(bytes)?;
         }
         Ok(archive.finish()?.into_inner())
@@ -167,10 +165,7 @@ impl Checkpoint {
 
 fn array<T: npyz::AutoSerialize + Copy>(values: &[T]) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    let options = npyz::WriteOptions::new().default_dtype().shape(&[values.len() as u64]);
-    let mut writer = options.writer(&mut bytes).begin_nd()?;
-    writer.extend(values.iter().copied())?;
-    writer.finish()?;
+    arrays::write(&mut bytes, &[values.len() as u64], values.iter().copied())?;
     Ok(bytes)
 }
 

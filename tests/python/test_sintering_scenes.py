@@ -91,6 +91,14 @@ def test_states_from_which_scenes_start_are_kept(compressed: Ran, tmp_path: Path
         assert all(np.array_equal(again[name], record[name]) for name in record.columns)
 
 
+def test_a_case_without_a_gate_is_refused_before_it_runs(tmp_path: Path) -> None:
+    done = CliRunner().invoke(main, ["run", "sintering-three", "--out", str(tmp_path / "out")])
+    assert done.exit_code == BAD_INPUT
+    assert "sintering-three: no gate is stated" in done.output
+    assert "`cross-check run sintering` judges it" in done.output
+    assert not (tmp_path / "out").exists()
+
+
 def test_samples_of_a_stage_have_their_own_interval(heated: Ran) -> None:
     scene, record, _ = heated
     assert [stage.output_every for stage in scene.stages] == [None, None, 250, None, None]
