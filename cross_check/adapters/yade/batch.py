@@ -7,6 +7,7 @@ its output in log.txt there, so that it writes the very bytes that it writes whe
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import time
@@ -46,3 +47,6 @@ def run_batch(listing: Path, progress: Path) -> None:
 
 
 run_batch(Path(sys.argv[1]), Path(sys.argv[2]))
+# YADE leaves the empty folder of its temporary files behind.
+with contextlib.suppress(OSError):
+    Path(O.tmpFilename()).parent.rmdir()  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]
