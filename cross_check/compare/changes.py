@@ -14,7 +14,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.stats import false_discovery_control  # pyright: ignore[reportUnknownVariableType]  # untyped
 
 from cross_check.baseline import Baseline, BaselineError, Entry, Measure
 from cross_check.compare.quantity import Undefined
@@ -142,6 +141,9 @@ def _adjusted(changes: list[Change]) -> list[Change]:
     raw = [change.p for change in changes if change.p is not None]
     if not raw:
         return changes
+    # It takes a second to import, which every command would wait for.
+    from scipy.stats import false_discovery_control  # pyright: ignore[reportUnknownVariableType]  # untyped
+
     adjusted = iter(false_discovery_control(raw))
     found: list[Change] = []
     for change in changes:

@@ -8,7 +8,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.stats import spearmanr  # pyright: ignore[reportUnknownVariableType]
 
 from cross_check.sintering.errors import StudyError
 from cross_check.sintering.law import softening
@@ -196,6 +195,9 @@ def _worst(asked: dict[str, Any]) -> Callable[[list[float]], float]:
 
 def _rank(times: list[float], values: list[float]) -> float:
     """NaN where all values are the same: they have no rank."""
+    # It takes a second to import, which every command would wait for.
+    from scipy.stats import spearmanr  # pyright: ignore[reportUnknownVariableType]
+
     found: Any = spearmanr(times, values) if np.ptp(values) > 0.0 else None
     return np.nan if found is None else float(found.statistic)
 

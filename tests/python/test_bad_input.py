@@ -92,7 +92,7 @@ def test_a_malformed_override_is_refused(tmp_path: Path) -> None:
 
 def test_an_output_folder_that_is_a_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "out").write_text("")
-    refused(call("run", GOOD, "--codes", "", "--out", tmp_path / "out"), "out")
+    refused(call("run", "free-fall", "--codes", "", "--out", tmp_path / "out"), "out")
     refused(call("deck", GOOD, "--code", "lammps", "--out", tmp_path / "out"), "out")
 
 
