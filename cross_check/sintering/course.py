@@ -74,6 +74,8 @@ def stage_samples(scene: Scene, record: RunRecord) -> dict[str, Indices]:
 WINDOW = 20e-3  # [s]
 DROP = -0.02  # [-]
 STRIDE = 10e-3  # sampling at which density has to rise [s]
+# Coordination is a multiple of 2/N. Its changes are rounded to so many digits: three contacts of 300 disks are 0.02.
+DIGITS = 9
 
 
 def reorganisation(time: Array, density: Array, coordination: Array, stress: Array) -> Numbers:
@@ -85,8 +87,9 @@ def reorganisation(time: Array, density: Array, coordination: Array, stress: Arr
     apart = max(round(WINDOW / interval), 1)
     later = np.arange(len(time))[None, :] - np.arange(len(time))[:, None] >= apart
     rises = density[None, :] > density[:, None]
-    changes = np.where(later & rises, coordination[None, :] - coordination[:, None], np.inf)
-    falling = (coordination[apart:] - coordination[:-apart] <= DROP) & (density[apart:] > density[:-apart])
+    change = np.round(coordination[None, :] - coordination[:, None], DIGITS)
+    changes = np.where(later & rises, change, np.inf)
+    falling = (np.diagonal(change, apart) <= DROP) & (density[apart:] > density[:-apart])
     inside = np.zeros(len(time), dtype=bool)
     for first in np.flatnonzero(falling):
         inside[first : first + apart + 1] = True

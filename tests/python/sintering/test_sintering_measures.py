@@ -172,6 +172,13 @@ def test_a_fall_of_coordination_counts_over_20_ms_with_rising_density() -> None:
     assert hot([4.0] * 12, rising)["C_drop_windows"] == 0.0
 
 
+@pytest.mark.parametrize("contacts", range(600, 700))
+def test_three_contacts_of_300_disks_are_a_fall_of_a_fiftieth(contacts: int) -> None:
+    found = hot([2 * contacts / 300] * 6 + [2 * (contacts - 3) / 300] * 6, np.linspace(0.8, 0.9, 12).tolist())
+    assert found["C_largest_drop"] == -0.02
+    assert found["C_drop_windows"] == 4.0
+
+
 def test_a_density_that_falls_from_10_ms_to_10_ms_is_seen() -> None:
     density = [0.8, 0.81, 0.82, 0.83, 0.825, 0.82, 0.83, 0.84]
     assert hot([4.0] * 8, density)["nu_smallest_rise"] == pytest.approx(0.005)
