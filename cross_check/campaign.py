@@ -104,7 +104,7 @@ def write(
             sweeps=_sweeps(finished) if figures else [],
             environment=environment(),
             changes=changed,
-            trends=over_time,
+            trends=over_time if figures else [],
             left_out=_left_out(finished),
             known_differences={name: str(entry["explanation"]).strip() for name, entry in known().items()},
         ),

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
-from fnmatch import fnmatchcase
+from fnmatch import translate
+from functools import cache
 from pathlib import Path
 
 from cross_check import PACKAGE, toml_file
@@ -39,8 +41,13 @@ class Rule:
             (self.left, item.left.source),
             (self.right, item.right.source),
         )
-        # Brackets of `native[x]` are letters here, not character sets.
-        return all(fnmatchcase(value, pattern.replace("[", "[[]")) for pattern, value in pairs)
+        return all(pattern == "*" or _expression(pattern).match(value) for pattern, value in pairs)
+
+
+@cache
+def _expression(pattern: str) -> re.Pattern[str]:
+    """A pattern as it is matched, made once: brackets of `native[x]` are letters here, not character sets."""
+    return re.compile(translate(pattern.replace("[", "[[]")))
 
 
 def rules(path: Path = PACKAGE / "expected_verdicts.toml") -> list[Rule]:
@@ -62,8 +69,11 @@ def expect(comparisons: Iterable[Comparison], table: list[Rule], cases: set[str]
     governed = {case for case in cases if any(_case(rule) == case for rule in table)}
     covered = [0] * len(table)
     judged: list[Comparison] = []
+    by_case: dict[str, list[int]] = {}
     for item in comparisons:
-        index = next((i for i, rule in enumerate(table) if rule.matches(item)), None)
+        if item.case not in by_case:
+            by_case[item.case] = [i for i, rule in enumerate(table) if _expression(rule.case).match(item.case)]
+        index = next((i for i in by_case[item.case] if table[i].matches(item)), None)
         if index is not None:
             covered[index] += 1
             judged.append(replace(item, expected=table[index].verdict))

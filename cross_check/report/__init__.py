@@ -19,8 +19,9 @@ def write(folder: Path, campaign: Campaign, pdf: bool = True) -> Path:
     verdict_file.write(folder / "verdicts.json", campaign.comparisons)
     junit.write(folder / "junit.xml", campaign)
     tables.write_all(campaign, report / "tables")
-    drawn = figures.draw_all(campaign, report / "figures", pdf)
+    over_time = trends.drawings(campaign.trends, report / "figures", pdf)
+    drawn = figures.draw_all(campaign, report / "figures", pdf, over_time)
+    first = len(drawn) - len(over_time)
     path = report / "index.html"
-    over_time = trends.draw_all(campaign.trends, report / "figures", pdf)
-    path.write_text(page.render(campaign, drawn, over_time), encoding="utf-8")
+    path.write_text(page.render(campaign, drawn[:first], drawn[first:]), encoding="utf-8")
     return path

@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -45,17 +45,33 @@ class Figured:
     pdf: bool
 
 
-def draw_all(campaign: Campaign, folder: Path, pdf: bool = True) -> list[Figured]:
-    """Draws every curve set and sweep into `folder` as svg and, if asked, pdf, in two processes where that pays."""
+Drawing = Callable[[], Figured]
+"""Draws one figure and writes its files; another process can be given it."""
+
+
+def draw_all(campaign: Campaign, folder: Path, pdf: bool = True, others: Sequence[Drawing] = ()) -> list[Figured]:
+    """Draws every curve set and sweep into `folder` as svg and, if asked, pdf, and then `others`.
+
+    They are drawn in two processes where that pays.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    if len(campaign.curves) + len(campaign.sweeps) > FEW:
+
+    def drawings() -> Iterator[Drawing]:
+        yield from (partial(draw, job) for job in _jobs(campaign, folder, pdf))
+        yield from others
+
+    if len(campaign.curves) + len(campaign.sweeps) + len(others) > FEW:
         context = multiprocessing.get_context("spawn")
         try:
             with ProcessPoolExecutor(WORKERS, mp_context=context) as pool:
-                return list(pool.map(draw, _jobs(campaign, folder, pdf), chunksize=2))
+                return list(pool.map(_drawn, drawings(), chunksize=2))
         except BrokenProcessPool:
             pass  # no second process to be had here (an interactive session, a small container): draw in this one
-    return [draw(job) for job in _jobs(campaign, folder, pdf)]
+    return [_drawn(one) for one in drawings()]
+
+
+def _drawn(one: Drawing) -> Figured:
+    return one()
 
 
 def _jobs(campaign: Campaign, folder: Path, pdf: bool) -> Iterator[Job]:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from matplotlib.figure import Figure
 
 from cross_check.compare.changes import Trend
 from cross_check.report import notation
-from cross_check.report.figures import Figured, save
+from cross_check.report.figures import Drawing, Figured, save
 from cross_check.report.palette import look, rank
 
 SIZE = (6.9, 2.9)  # inches
@@ -22,10 +23,9 @@ SPREAD = 0.3  # of the distance of two baselines, over which the sources are set
 MOST_LABELS = 6
 
 
-def draw_all(trends: Sequence[Trend], folder: Path, pdf: bool = True) -> list[Figured]:
-    """Draws every trend into `folder` as svg and, if asked, pdf."""
-    folder.mkdir(parents=True, exist_ok=True)
-    return [_draw(trend, folder, pdf) for trend in trends]
+def drawings(trends: Sequence[Trend], folder: Path, pdf: bool = True) -> list[Drawing]:
+    """What draws every trend into `folder` as svg and, if asked, pdf."""
+    return [partial(_draw, trend, folder, pdf) for trend in trends]
 
 
 def _draw(trend: Trend, folder: Path, pdf: bool) -> Figured:
