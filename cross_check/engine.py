@@ -186,8 +186,8 @@ def build() -> str:
 def run(scene: Scene, folder: Path | None = None, threads: int = 1, states: Path | None = None) -> RunRecord:
     """Runs a scene and returns its record, which is also written into `folder` if there is one.
 
-    States from which scenes start are taken from the folder `states` and saved there.
-    Raises CaseError or RecordError.
+    States from which scenes start are taken from the folder `states` and saved there; a program in place of the module
+    computes them anew. Raises CaseError or RecordError.
     """
     program = os.environ.get(PROGRAM_VARIABLE)
     if program is None:
