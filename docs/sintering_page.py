@@ -1,4 +1,4 @@
-"""Writes docs/sintering-results.md from the table of a study: python docs/sintering_page.py out/sintering-full DATE."""
+"""Writes docs/sintering-results.md from what a study wrote: python docs/sintering_page.py out/sintering-full DATE."""
 
 from __future__ import annotations
 
@@ -6,11 +6,15 @@ import csv
 import sys
 from pathlib import Path
 
+from cross_check.compare.expectations import rules
+from cross_check.compare.verdicts import DIFFER, Comparison
+from cross_check.report import notation, verdict_file
 from cross_check.report.notation import ABSENT
+from cross_check.sintering.judgement import EXPECTED
 
 HEAD = """# What the sintering study found
 
-Written by `docs/sintering_page.py` from `table.csv` of `cross-check run sintering --full` of {date}. Each row is a
+Written by `docs/sintering_page.py` from what `cross-check run sintering --full` found on {date}. Each row is a
 claim of Luding, Manetsberger and Müllers (2005) with the threshold that was set for it beforehand; a cell is the mean
 over the seeds with their standard deviation, and in brackets how many of them keep the threshold alone. A claim that
 the model does not reproduce is **missed** and stays. What the numbers are is said in
@@ -30,24 +34,41 @@ def _cell(row: Row | None) -> str:
     spread = "" if row["Spread"] in ("", ABSENT) else f" ± {row['Spread']}"
     kept = "" if row["Kept by"] in ("", ABSENT) else f" ({row['Kept by']}/{row['Seeds']})"
     verdict = f" **{row['Verdict']}**" if row["Verdict"] not in ("met", "reported") else ""
-    return f"{row['Measured']}{spread}{kept}{verdict}"
+    value, space, unit = row["Measured"].partition(" ")
+    measured = value if value == ABSENT else notation.number(float(value), 4)
+    return f"{measured}{space}{unit}{spread}{kept}{verdict}"
 
 
-def _summary(rows: list[Row]) -> str:
-    """How many targets are met, and which are not."""
+def _summary(rows: list[Row], causes: dict[tuple[str, str], str]) -> str:
+    """How many targets are met, and which are not, together where the same is known of the cause."""
     judged = [row for row in rows if row["Threshold"] not in ("", ABSENT)]
     missed = [row for row in judged if row["Verdict"] != "met"]
     text = f"{len(judged) - len(missed)} of {len(judged)} targets are met."
-    if missed:
-        lines = [f"- {row['Target']}, p = {row['p [N/m]']} N/m, N = {row['N']}: {row['Verdict']}" for row in missed]
-        text += " The others:\n\n" + "\n".join(lines)
-    return text
+    by_cause: dict[str, list[str]] = {}
+    for row in missed:
+        sample = f"p={row['p [N/m]']},N={row['N']}"
+        line = f"- {row['Target']}, {sample}: {_cell(row)}; asked: {row['Threshold']}"
+        by_cause.setdefault(causes.get((sample, row["Target"]), ""), []).append(line)
+    return "\n\n".join(
+        [text, *(part for cause, lines in by_cause.items() for part in ("\n".join(lines), cause) if part)]
+    )
 
 
-def page(table: Path, date: str) -> str:
-    """The page of a study's table."""
-    with table.open(encoding="utf-8", newline="") as file:
+def _causes(verdicts: list[Comparison]) -> dict[tuple[str, str], str]:
+    """What the rules of the expected verdicts say of why a target is missed, by sample and target."""
+    table = rules(EXPECTED[True])
+    missed = [item for item in verdicts if item.verdict == DIFFER]
+    return {
+        (item.case.partition("/")[2], item.quantity): next((rule.why for rule in table if rule.matches(item)), "")
+        for item in missed
+    }
+
+
+def page(folder: Path, date: str) -> str:
+    """The page of the study that was written into a folder."""
+    with (folder / "table.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
+    causes = _causes(verdict_file.read(folder / "verdicts.json"))
     claims: dict[tuple[str, ...], dict[tuple[str, str], Row]] = {}
     for row in rows:
         claims.setdefault(tuple(row[key] for key in CLAIM), {})[row["p [N/m]"], row["N"]] = row
@@ -57,9 +78,9 @@ def page(table: Path, date: str) -> str:
     for claim, found in claims.items():
         cells = [text.replace("|", "\\|") for text in (*claim, *(_cell(found.get(sample)) for sample in used))]
         lines.append(f"| {' | '.join(cells)} |")
-    return HEAD.format(date=date, summary=_summary(rows)) + "\n".join(lines) + "\n"
+    return HEAD.format(date=date, summary=_summary(rows, causes)) + "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":
     folder, date = sys.argv[1:]
-    Path(__file__).with_name("sintering-results.md").write_text(page(Path(folder) / "table.csv", date))
+    Path(__file__).with_name("sintering-results.md").write_text(page(Path(folder), date))

@@ -1,6 +1,7 @@
 //! The case file: schema, sweeps, checks, and the scenes that come of it.
 
 mod check;
+pub mod gate;
 mod locate;
 pub mod measure;
 pub mod model;

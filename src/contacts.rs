@@ -6,12 +6,15 @@
 //! blocks it writes into its exports, which those particles fetch in a fixed order. Blocks depend on positions only, so
 //! that the order of every sum is the same for every number of threads.
 
+mod account;
+
 use crate::Vector;
 use crate::domain::Domain;
-use crate::laws::Losses;
 use crate::laws::memory::Memory;
 use crate::neighbors::Near;
 use crate::particles::{Load, Particles};
+
+pub use account::{Account, Flow};
 
 /// Particles of a block.
 pub const BLOCK: usize = 2048;
@@ -60,38 +63,6 @@ impl Pair {
     pub fn places(self) -> [u32; 2] {
         let (i, j) = (self.first, self.second & INDEX_MASK);
         [i.min(j), i.max(j)]
-    }
-}
-
-/// Entries of a contact in the energy ledger.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Account {
-    /// Force on i at the last step [N].
-    pub force: Vector,
-    /// Total normal force, positive when it repels [N].
-    pub normal_force: f64,
-    /// Part of the normal force that is not stored [N].
-    pub damping_force: f64,
-    /// Stored energy [J].
-    pub energy: f64,
-    /// Its part in the contact plane and in moments [J].
-    pub springs: f64,
-    /// Largest force in the contact plane that friction allows [N].
-    pub friction_limit: f64,
-}
-
-impl Memory for Account {
-    const WIDTH: usize = 8;
-
-    fn save(&self, into: &mut Vec<f64>) {
-        self.force.save(into);
-        into.extend([self.normal_force, self.damping_force, self.energy, self.springs, self.friction_limit]);
-    }
-
-    fn restore(values: &mut impl Iterator<Item = f64>) -> Self {
-        let (force, (normal_force, damping_force)) = <(Vector, (f64, f64))>::restore(values);
-        let (energy, springs, friction_limit) = <(f64, f64, f64)>::restore(values);
-        Self { force, normal_force, damping_force, energy, springs, friction_limit }
     }
 }
 
@@ -164,19 +135,6 @@ pub struct Block<H> {
     pub flow: Flow,
     /// Candidates that may touch, for one sweep.
     pub active: Vec<u32>,
-}
-
-/// What entered and left the contacts of a block in the last step [J].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Flow {
-    /// Energy dissipated by dashpots along the normal.
-    pub dissipated: f64,
-    /// Losses of springs and of plastic flow.
-    pub losses: Losses,
-    /// Energy that entered contacts by approach, and the work of sliding, rolling and twisting.
-    pub entered: f64,
-    /// Work of moving bodies on the particles.
-    pub body_work: f64,
 }
 
 impl<H> Block<H> {

@@ -22,6 +22,7 @@ class Rule:
     """Comparisons that match every given pattern (`*` and `?`) are expected to end in `verdict`.
 
     `count` is the number of comparisons that the rule must cover: one that vanishes is as wrong as one that turns red.
+    `why` is what is known of the cause; it stands in the notes of the comparisons that end as expected.
     """
 
     case: str
@@ -31,6 +32,7 @@ class Rule:
     quantity: str = "*"
     left: str = "*"
     right: str = "*"
+    why: str = ""
 
     def matches(self, item: Comparison) -> bool:
         """Whether the rule speaks of this comparison."""
@@ -76,7 +78,7 @@ def expect(comparisons: Iterable[Comparison], table: list[Rule], cases: set[str]
         index = next((i for i in by_case[item.case] if table[i].matches(item)), None)
         if index is not None:
             covered[index] += 1
-            judged.append(replace(item, expected=table[index].verdict))
+            judged.append(_governed(item, table[index]))
         elif item.case.partition("/")[0] in governed:
             judged.append(replace(item, expected="(no rule in expected_verdicts.toml)"))
         else:
@@ -91,6 +93,11 @@ def expect(comparisons: Iterable[Comparison], table: list[Rule], cases: set[str]
             if _case(rule) in cases and n != rule.count
         ]
     return judged
+
+
+def _governed(item: Comparison, rule: Rule) -> Comparison:
+    known = rule.why if item.verdict == rule.verdict else ""
+    return replace(item, expected=rule.verdict, note="\n".join(part for part in (item.note, known) if part))
 
 
 def _case(rule: Rule) -> str:

@@ -28,12 +28,17 @@ _FAST_TEST = 'vary.0.points.0.set={ "bodies.2.motion.load.value" = 10, "bodies.3
 
 @dataclass(frozen=True)
 class Mode:
-    """What a mode changes in the texts of the cases: in all of them, in the box, and in the cooling."""
+    """What a mode changes in the texts of the cases: in all of them, in the box, and in the cooling.
+
+    `stretch` is the factor of the times of preparation, heating and cooling, `hot` the time of the last stage of the
+    box [s], and `halvings` how often the time step is halved.
+    """
 
     everywhere: tuple[str, ...] = ()
     box: tuple[str, ...] = ()
     cooled: tuple[str, ...] = ()
     stretch: float = 1.0
+    hot: float = 1.0
     halvings: int = 0
 
 
@@ -45,20 +50,25 @@ def _slower(factor: float) -> Mode:
 
 _IMPLICIT = 'model.normal.cooling="implicit"'
 _NO_EXPANSION = "materials.0.thermal.expansion=0"
+_FRICTIONAL = ("pairs.0.values.friction=0.5", "pairs.1.values.friction=0.5")
+# What friction alone does as it is switched: the temperature is held, and no branch follows.
+_UNHEATED = ("stages.1.actions.2.to=353.15", "stages.2.end.value=0.1")
 MODES = {
     PLAIN: Mode(),
     "implicit": Mode(everywhere=(_IMPLICIT,)),
     "no_expansion": Mode(everywhere=(_NO_EXPANSION,)),
     "implicit_no_expansion": Mode(everywhere=(_IMPLICIT, _NO_EXPANSION)),
-    "frictional_prep": Mode(box=("pairs.0.values.friction=0.5", "pairs.1.values.friction=0.5")),
+    "frictional_prep": Mode(box=_FRICTIONAL),
+    "frictional_prep_unheated": Mode(box=(*_FRICTIONAL, *_UNHEATED), hot=0.1),
     "slower_2": _slower(2.0),
     "slower_4": _slower(4.0),
     "sliding_off": Mode(everywhere=('model.tangential.sliding="off"',)),
     "sliding_brittle": Mode(everywhere=('model.tangential.sliding="brittle"',)),
     "half_step": Mode(everywhere=("time.step.value=1.5e-7",), halvings=1),
 }
-# Controls and variants are run at N = 100, for the longest sintering time.
+# Controls and variants are run at N = 100, for the longest sintering time; frictional preparation also at N = 300.
 _CONTROLS = tuple(mode for mode in MODES if mode != PLAIN)
+_FRICTIONAL_MODES = ("frictional_prep", "frictional_prep_unheated")
 _CONTROLS_COMPRESSED = ("implicit", "no_expansion", "sliding_off", "sliding_brittle", "half_step")
 SEEDS = {100: 8, 300: 2, 3: 3}
 CONTROL_SEEDS = 3
@@ -125,7 +135,7 @@ class Run:
         """Simulated time of the branch alone [s]."""
         mode = MODES[self.mode]
         spans = {
-            BOX: 0.3 * mode.stretch + 1.0,
+            BOX: 0.3 * mode.stretch + mode.hot,
             COOLED: 0.1 * mode.stretch + 0.1,
             COMPRESSION: 0.4 if self.pressure == PRESSURES[0] else 0.1,
             FAST: 0.1,
@@ -158,7 +168,8 @@ def plan(full: bool, seeds: int | None = None) -> tuple[Run, ...]:
                     yield _sample(pressure, count, seed, tuple(TIMES))
         for pressure in PRESSURES:
             for seed in first(SEEDS[300]):
-                yield _control("frictional_prep", pressure, 300, seed)
+                for mode in _FRICTIONAL_MODES:
+                    yield _control(mode, pressure, 300, seed)
             for seed in first(CONTROL_SEEDS):
                 yield from (_control(mode, pressure, 100, seed) for mode in _CONTROLS)
             yield [Run(THREE, pressure, 3, seed) for seed in first(SEEDS[3])]
@@ -175,8 +186,10 @@ def _sample(pressure: int, count: int, seed: int, times: tuple[float, ...]) -> l
 
 def _control(mode: str, pressure: int, count: int, seed: int) -> list[Run]:
     """A sample prepared or computed otherwise, with the longest sintering time."""
-    tests = (COOLED, COMPRESSION) if mode in _CONTROLS_COMPRESSED else (COOLED,)
     box = Run(BOX, pressure, count, seed, mode=mode)
+    if MODES[mode].hot < 1.0:
+        return [box]  # nothing branches off in it
+    tests = (COOLED, COMPRESSION) if mode in _CONTROLS_COMPRESSED else (COOLED,)
     return [box, *(replace(box, test=test, sintering_time=1.0) for test in tests)]
 
 

@@ -47,12 +47,15 @@ def growth(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
 
 
 def ratio(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
-    """Seed mean of one sample over that of another; over several times the extreme one, by `worst`."""
+    """Seed mean of one sample over that of another; over several times the extreme one, by `worst`.
+
+    Samples of one size are compared over the seeds that both have: a seed is the same packing in every mode.
+    """
     return _pairwise(study, sample, asked, over)
 
 
 def difference(study: Study, sample: Sample, asked: dict[str, Any]) -> Evidence:
-    """Seed mean of one sample less that of another; its size where `size`."""
+    """Seed mean of one sample less that of another, over the seeds of `ratio`; its size where `size`."""
     return _pairwise(study, sample, asked, lambda one, other: one - other)
 
 
@@ -64,9 +67,12 @@ def _pairwise(
     found: list[float] = []
     by_time: list[Values] = []
     for time in times:
-        at = replace(sample, time=time)
-        one = study.values(quantity, replace(at, **asked.get("of", {})))
-        other = study.values(asked.get("to_quantity", quantity), replace(at, **asked.get("to", {})))
+        left, right = (replace(sample, **({"time": time} | asked.get(side, {}))) for side in ("of", "to"))
+        one = study.values(quantity, left)
+        other = study.values(asked.get("to_quantity", quantity), right)
+        both = one.keys() & other.keys()
+        if left.count == right.count and both:
+            one, other = ({seed: values[seed] for seed in sorted(both)} for values in (one, other))
         found.append(combine(_mean(one), _mean(other)))
         by_time.append({seed: combine(one[seed], other[seed]) for seed in one if seed in other})
     size = abs if asked.get("size") else float

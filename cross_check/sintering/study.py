@@ -17,6 +17,9 @@ from cross_check.sintering.states import MEAN_RADIUS
 Values = dict[int, float]
 """A number for every seed."""
 
+# Strain up to which the bonds of a sample at the lower pressure fail [-].
+EARLY = 0.01
+
 
 class NotPlanned(Exception):
     """The form of the study that ran does not hold such a run."""
@@ -128,9 +131,27 @@ def _heating_share(study: Study, sample: Sample, seed: int) -> float:
     return over(abs(after - before), final - before)
 
 
+def _heat_alone(study: Study, sample: Sample, seed: int) -> float:
+    """The same share less what friction alone does at that time, which the control without heat tells."""
+    before, after = (study.number(plan.BOX, f"{stage}_nu_geo", sample, seed) for stage in ("press", "heat"))
+    control = replace(sample, mode=f"{sample.mode}_unheated")
+    unheated = study.number(plan.BOX, "heat_nu_geo", control, seed) - study.number(
+        plan.BOX, "press_nu_geo", control, seed
+    )
+    final = study.number(plan.COOLED, "final_nu_geo", sample, seed)
+    return over(abs(after - before - unheated), final - before)
+
+
 def _force_width(study: Study, sample: Sample, seed: int) -> float:
     """Standard deviation of the forces after cool-down [N]."""
     return study.number(plan.COOLED, "final_f_std", sample, seed) * 2.0 * MEAN_RADIUS * sample.pressure
+
+
+def _early_failure_strain(study: Study, sample: Sample, seed: int) -> float:
+    """Strain of the largest stress on the top wall up to a strain of EARLY: later, grains that lock may exceed it."""
+    arrays = study.outcome(plan.COMPRESSION, sample, seed).arrays
+    early = arrays["strain"] <= EARLY
+    return float(arrays["strain"][early][np.argmax(arrays["sigma_zz"][early])])
 
 
 def _of_cooled(combine: Callable[[Callable[[str], float]], float]) -> Callable[[Study, Sample, int], float]:
@@ -150,6 +171,7 @@ DERIVED: dict[str, Derived] = {
     "cool_step_geo": (plan.COOLED, _cool_step("nu_geo")),
     "cool_step_mat": (plan.COOLED, _cool_step("nu_mat")),
     "heating_share": (plan.COOLED, _heating_share),
+    "heat_alone": (plan.COOLED, _heat_alone),
     "contact_densification": (plan.COOLED, _of_cooled(lambda of: 2.0 * of("hot_overlap_mean"))),
     "wall_deficit": (plan.COOLED, _of_cooled(lambda of: of("final_C_inside") - of("final_C_at_walls"))),
     "small_share_drop": (
@@ -163,6 +185,7 @@ DERIVED: dict[str, Derived] = {
         _of_cooled(lambda of: float(np.max([of("hot_mu_t_largest_share"), of("final_mu_t_largest_share")]))),
     ),
     "force_width": (plan.COOLED, _force_width),
+    "early_failure_strain": (plan.COMPRESSION, _early_failure_strain),
     "bonds_lost": (plan.FAST, _of_fast(lambda of: 1.0 - of("at_survival_bonds_surviving"))),
     "attraction_lost": (
         plan.FAST,

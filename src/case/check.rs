@@ -8,8 +8,9 @@ mod stages;
 
 use std::collections::HashSet;
 
+use super::gate::{Check, Matched};
 use super::quantity::{Kind, Number, Quantity};
-use super::schema::{Case, Check, Matched, SCHEMA, TimeStep};
+use super::schema::{Case, SCHEMA, TimeStep};
 use super::tag;
 use crate::error::Problem;
 

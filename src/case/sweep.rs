@@ -4,7 +4,8 @@ use serde::Serialize;
 use toml::{Table, Value};
 
 use super::CaseText;
-use super::schema::{Case, Gate, Vary};
+use super::gate::Gate;
+use super::schema::{Case, Vary};
 use crate::error::{Error, Problem};
 
 /// One point of the sweep.

@@ -1,7 +1,7 @@
 //! Archives of arrays that `numpy.load` opens: `.npy` files in a zip. They hold no dates: the same arrays are the same bytes.
 
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Result, Write};
+use std::io::{BufReader, BufWriter, Error, Result, Write};
 use std::path::Path;
 
 use npyz::{AutoSerialize, Deserialize, NpyFile, WriterBuilder};
@@ -81,6 +81,8 @@ impl Reader {
     /// # Errors
     /// There is no such array, it is of another type, or it is damaged.
     pub fn read<T: Deserialize>(&mut self, name: &str) -> Result<Vec<T>> {
-        NpyFile::new(self.0.by_name(&format!("{name}.npy"))?)?.into_vec()
+        let member =
+            self.0.by_name(&format!("{name}.npy")).map_err(|error| Error::other(format!("{name}: {error}")))?;
+        NpyFile::new(member)?.into_vec()
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::Vector;
 use crate::bodies::{self, Body, BodyShape};
 use crate::case::scene::Start;
-use crate::contacts::{Account, BLOCK, Block, Flow, Pair, Slots};
+use crate::contacts::{BLOCK, Block, Flow, Pair, Slots};
 use crate::geometry::{self, ContactGeometry};
 use crate::laws::Contact;
 use crate::laws::model::{Action, ContactModel};
@@ -345,7 +345,7 @@ impl<M: ContactModel> View<'_, M> {
             None
         };
         if LEDGER {
-            account(contact, action.as_ref(), &mut slots.accounts[slot], flow, self.elapsed, wall);
+            flow.count(contact, action.as_ref(), &mut slots.accounts[slot], self.elapsed, wall);
         }
         action
     }
@@ -396,37 +396,4 @@ pub(super) fn contact(
     let mass = if mass_j.is_finite() { material::reduced(mass_i, mass_j) } else { mass_i };
     let pair = pair.law(geometry.effective_radius(), mass);
     Contact { pair, geometry, velocity, angular_i: angular[0], angular_j: angular[1], masses }
-}
-
-/// Work of the last step, from the forces at its two ends and the velocity between.
-fn account(
-    contact: &Contact,
-    action: Option<&Action>,
-    account: &mut Account,
-    flow: &mut Flow,
-    elapsed: f64,
-    wall: &Vector,
-) {
-    let now = action.map_or_else(Account::default, |action| Account {
-        force: action.force,
-        normal_force: action.normal.force,
-        damping_force: action.normal.force - action.normal.elastic,
-        energy: action.normal.energy + action.springs,
-        springs: action.springs,
-        friction_limit: action.friction_limit,
-    });
-    if let Some(action) = action {
-        flow.losses = flow.losses + action.losses;
-        // What slides, rolls or twists away came in across the normal, whatever the approach brought.
-        flow.entered += action.losses.frictional.max(0.0) + action.losses.rolling.max(0.0);
-    } else {
-        // A spring that is dropped with its contact.
-        flow.losses.carried += account.springs;
-    }
-    let velocity = contact.approach().normal_velocity;
-    let mean = |now: f64, then: f64| 0.5 * (now + then);
-    flow.dissipated += mean(now.damping_force, account.damping_force) * velocity * elapsed;
-    flow.entered += (mean(now.normal_force, account.normal_force) * velocity * elapsed).max(0.0);
-    flow.body_work += 0.5 * (now.force + account.force).dot(wall) * elapsed;
-    *account = now;
 }

@@ -43,6 +43,14 @@ def test_a_verdict_other_than_the_expected_one_fails() -> None:
     assert not judged.as_expected
 
 
+def test_the_known_cause_stands_in_the_note_of_what_ends_as_expected() -> None:
+    known = replace(RULE, verdict="differ", why="the plane is a large sphere", count=2)
+    seen = [replace(comparison(verdict="differ"), note="seeds: 1"), comparison(verdict="agree")]
+    first, second = expect(seen, [known], {"impact"}, complete=True)
+    assert first.note == "seeds: 1\nthe plane is a large sphere"
+    assert second.note == ""
+
+
 def test_what_the_quick_form_leaves_out_is_expected_to_be_left_out_and_counted() -> None:
     (judged,) = expect([comparison(verdict=FULL_ONLY)], [RULE], {"impact"}, complete=True)
     assert judged.as_expected

@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 import crossgrain
 from cross_check.cli import BAD_INPUT, UNEXPECTED, main
 from cross_check.engine import CaseError
+from cross_check.report import notation
 from cross_check.report.figures import Figured
 from cross_check.report.notation import ABSENT
 from cross_check.sintering import figures, plan, runner, scenes
@@ -140,10 +141,12 @@ def test_the_page_of_the_documentation_says_what_the_table_says(tmp_path: Path) 
     with (tmp_path / "table.csv").open() as file:
         judged = [row for row in csv.DictReader(file) if row["Threshold"] != ABSENT]
     missed = [row for row in judged if row["Verdict"] == "missed"]
-    page: str = runpy.run_path(str(DOCS / "sintering_page.py"))["page"](tmp_path / "table.csv", "2026-11-22")
+    page: str = runpy.run_path(str(DOCS / "sintering_page.py"))["page"](tmp_path, "2026-11-22")
     met = sum(row["Verdict"] == "met" for row in judged)
     assert f"{met} of {len(judged)} targets are met" in page
     assert missed
     for row in missed:
-        assert f"- {row['Target']}, p = {row['p [N/m]']} N/m, N = {row['N']}: missed" in page
-        assert f"{row['Measured']} (0/1) **missed**" in page
+        value, space, unit = row["Measured"].partition(" ")
+        cell = f"{notation.number(float(value), 4)}{space}{unit} (0/1) **missed**"
+        assert f"- {row['Target']}, p={row['p [N/m]']},N={row['N']}: {cell}; asked: {row['Threshold']}" in page
+        assert f"| {cell} |" in page

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from cross_check.sintering import plan
+from cross_check.sintering import plan, scenes
 from cross_check.sintering.plan import Run
 
 # Measured cost of one step, by the number of disks [s].
@@ -62,6 +62,19 @@ def test_overrides_reach_the_case_that_they_are_for() -> None:
     assert "pairs.0.values.friction=0.5" in box.overrides
     assert "pairs.0.values.friction=0.5" not in prepared.overrides
     assert "start.start.pairs.0.values.friction=0.5" in prepared.overrides
+
+
+def test_the_control_without_heat_is_the_frictional_preparation_at_a_temperature_that_is_held() -> None:
+    heated, held = (scenes.load(Run(plan.BOX, 10, 100, 1, mode=f"frictional_prep{tail}")) for tail in ("", "_unheated"))
+    assert heated["stages"][0] == held["stages"][0]
+    ramps = [
+        [action for action in scene["stages"][1]["actions"] if action["do"] == "ramp_temperature"]
+        for scene in (heated, held)
+    ]
+    assert ramps[1] == [ramps[0][0] | {"to": held["temperature"]}]
+    assert ramps[0] != ramps[1]
+    without = [[action for action in scene["stages"][1]["actions"] if "to" not in action] for scene in (heated, held)]
+    assert without[0] == without[1] != []
 
 
 def test_names_of_variants_are_those_of_the_cases() -> None:

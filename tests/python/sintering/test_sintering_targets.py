@@ -16,7 +16,7 @@ from cross_check.compare.verdicts import AGREE, DIFFER
 from cross_check.sintering import judgement, plan
 from cross_check.sintering.errors import StudyError
 from cross_check.sintering.measures import measure
-from cross_check.sintering.outcome import Outcome
+from cross_check.sintering.outcome import Arrays, Numbers, Outcome
 from cross_check.sintering.plan import Run
 from cross_check.sintering.shapes import SHAPES
 from cross_check.sintering.study import Sample, Study
@@ -27,18 +27,18 @@ GATED = [target for target in TABLE if target.gated]
 
 
 @cache
-def measured(test: str) -> dict[str, float]:
-    """All numbers of a made-up run of a test."""
+def measured(test: str) -> tuple[Numbers, Arrays]:
+    """All numbers and arrays of a made-up run of a test."""
     small = test == plan.THREE
     time = None if test in (plan.BOX, plan.THREE) else 1.0
     run = Run(test, 10, 3 if small else 100, 1, time)
     scene = made_up_runs.scene(run)
-    return measure(run, scene, made_up_runs.simulate(scene, Path(), Path(), []))[0]
+    return measure(run, scene, made_up_runs.simulate(scene, Path(), Path(), []))
 
 
 def whole(full: bool, seeds: int | None = None) -> Study:
     """A study in which every run of a test gave the same numbers."""
-    outcomes = {run: Outcome(run, dict(measured(run.test))) for run in plan.plan(full, seeds)}
+    outcomes = {run: Outcome(run, *measured(run.test)) for run in plan.plan(full, seeds)}
     return Study(outcomes, full, made_up_runs.LAW, seeds)
 
 
@@ -118,6 +118,17 @@ def test_ratios_and_differences_are_of_means_not_means_of_ratios() -> None:
     assert math.isnan(value(nothing, "ratio", **change)[0])
 
 
+def test_modes_are_compared_over_the_seeds_that_both_have() -> None:
+    def cooled(count: int, seed: int, mode: str, density: float) -> Outcome:
+        return Outcome(Run(plan.COOLED, 10, count, seed, 1.0, mode), {"final_nu_geo": density})
+
+    made = [cooled(100, 1, plan.PLAIN, 1.0), cooled(100, 2, plan.PLAIN, 3.0), cooled(100, 1, "implicit", 1.5)]
+    study = Study({outcome.run: outcome for outcome in (*made, cooled(300, 1, plan.PLAIN, 8.0))}, True, {})
+    assert value(study, "difference", of={"mode": "implicit"}, to={"mode": plan.PLAIN}) == (0.5, [0.5])
+    sizes: dict[str, Any] = {"of": {"count": 300}, "to": {"count": 100}}
+    assert value(study, "ratio", **sizes)[0] == 4.0  # other packings: all seeds count
+
+
 def test_a_rank_is_that_of_the_means_and_a_fall_the_steepest_factor() -> None:
     up = series({(10, t, 1): v for t, v in zip(TIMES, [1.0, 2.0, 3.0], strict=True)})
     down = series({(10, t, 1): v for t, v in zip(TIMES, [3.0, 2.0, 4.0], strict=True)})
@@ -132,6 +143,26 @@ def test_gains_and_jumps_compare_the_pressures() -> None:
     assert value(study, "gain_ratio", times=[1.0], base=0.01)[0] == pytest.approx(15.0)
     times: dict[str, Any] = {"from": 0.01, "until": 1.0}
     assert value(study, "jump_ratio", **times)[0] == pytest.approx(0.75)
+
+
+def test_the_early_failure_is_not_the_largest_stress_of_loose_grains() -> None:
+    run = Run(plan.COMPRESSION, 10, 100, 1, 1.0)
+    arrays = {"strain": np.array([0.0, 0.002, 0.009, 0.05]), "sigma_zz": np.array([10.0, 40.0, 20.0, 50.0])}
+    study = Study({run: Outcome(run, {"failure_strain": 0.05}, arrays)}, True, {})
+    assert study.values("early_failure_strain", Sample(10, 100)) == {1: 0.002}
+
+
+def test_heat_alone_is_what_the_control_without_heat_leaves() -> None:
+    def box(mode: str, cold: float, warm: float) -> Outcome:
+        run = Run(plan.BOX, 10, 100, 1, mode=mode)
+        return Outcome(run, {"press_nu_geo": cold, "heat_nu_geo": warm})
+
+    cooled = Run(plan.COOLED, 10, 100, 1, 1.0, "frictional_prep")
+    boxes = (box("frictional_prep", 0.78, 0.79), box("frictional_prep_unheated", 0.78, 0.788))
+    outcomes = {outcome.run: outcome for outcome in (*boxes, Outcome(cooled, {"final_nu_geo": 0.82}))}
+    study, sample = Study(outcomes, True, {}), Sample(10, 100, mode="frictional_prep")
+    assert study.values("heating_share", sample)[1] == pytest.approx(0.25)
+    assert study.values("heat_alone", sample)[1] == pytest.approx(0.05)
 
 
 def test_a_deviation_is_the_largest_of_all_seeds_and_times() -> None:
