@@ -12,6 +12,8 @@ from cross_check.sintering.plots import Line, Panel, Sheet, mean_and_spread, tim
 from cross_check.sintering.study import Sample, Study
 
 KELVIN = 273.15
+# Time at which the walls have pressed the particles together [s].
+SETTLED = 0.1
 # Figure 11 draws the coordination number over so much.
 SCALE = 5.0
 
@@ -72,8 +74,21 @@ def _density(study: Study, size: int) -> Sheet:
     panels: list[Panel] = []
     for pressure in (100, 10):
         lines = [timed(time, *whole(study, Sample(pressure, size, time), "nu_geo")) for time in times(study, size)]
-        panels.append(Panel(f"N = {size}, p = {pressure} N/m", "time [s]", "density [-]", lines))
+        limits = _settled(lines)
+        panels.append(Panel(f"N = {size}, p = {pressure} N/m", "time [s]", "density [-]", lines, y_limits=limits))
     return Sheet("figure-09", "Figure 9: density", panels)
+
+
+def _settled(lines: list[Line]) -> tuple[float, float]:
+    """Limits that show what follows once the walls have met the particles: the loose start would flatten it."""
+    shown: list[Array] = []
+    for line in lines:
+        later = line.x >= SETTLED
+        band = np.zeros(1) if line.band is None else line.band[later]
+        shown += [line.y[later] - band, line.y[later] + band]
+    values = np.concatenate(shown)
+    margin = 0.1 * max(float(np.ptp(values)), 0.01)
+    return float(np.min(values)) - margin, float(np.max(values)) + margin
 
 
 def _coordination(study: Study) -> Sheet:
