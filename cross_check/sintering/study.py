@@ -126,20 +126,25 @@ def _cool_step(density: str) -> Callable[[Study, Sample, int], float]:
 
 def _heating_share(study: Study, sample: Sample, seed: int) -> float:
     """Size of the change of density while the temperature rises, over the change from before heating to the end."""
-    before, after = (study.number(plan.BOX, f"{stage}_nu_geo", sample, seed) for stage in ("press", "heat"))
-    final = study.number(plan.COOLED, "final_nu_geo", sample, seed)
-    return over(abs(after - before), final - before)
+    return over(abs(_ramp(study, sample, seed)), _gain(study, sample, seed))
 
 
 def _heat_alone(study: Study, sample: Sample, seed: int) -> float:
     """The same share less what friction alone does at that time, which the control without heat tells."""
+    unheated = _ramp(study, replace(sample, mode=f"{sample.mode}_unheated"), seed)
+    return over(abs(_ramp(study, sample, seed) - unheated), _gain(study, sample, seed))
+
+
+def _ramp(study: Study, sample: Sample, seed: int) -> float:
+    """Change of density over the stage in which the temperature rises."""
     before, after = (study.number(plan.BOX, f"{stage}_nu_geo", sample, seed) for stage in ("press", "heat"))
-    control = replace(sample, mode=f"{sample.mode}_unheated")
-    unheated = study.number(plan.BOX, "heat_nu_geo", control, seed) - study.number(
-        plan.BOX, "press_nu_geo", control, seed
-    )
-    final = study.number(plan.COOLED, "final_nu_geo", sample, seed)
-    return over(abs(after - before - unheated), final - before)
+    return after - before
+
+
+def _gain(study: Study, sample: Sample, seed: int) -> float:
+    """Density after cool-down less that before heating."""
+    cold = study.number(plan.BOX, "press_nu_geo", sample, seed)
+    return study.number(plan.COOLED, "final_nu_geo", sample, seed) - cold
 
 
 def _force_width(study: Study, sample: Sample, seed: int) -> float:

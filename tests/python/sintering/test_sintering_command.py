@@ -14,11 +14,13 @@ from click.testing import CliRunner, Result
 
 import crossgrain
 from cross_check.cli import BAD_INPUT, UNEXPECTED, main
+from cross_check.compare.expectations import rules
+from cross_check.compare.verdicts import DIFFER
 from cross_check.engine import CaseError
 from cross_check.report import notation
 from cross_check.report.figures import Figured
 from cross_check.report.notation import ABSENT
-from cross_check.sintering import figures, plan, runner, scenes
+from cross_check.sintering import figures, judgement, plan, runner, scenes
 from cross_check.sintering.plan import Run
 from cross_check.sintering.scenes import Planned
 from cross_check.sintering.study import Study
@@ -150,3 +152,13 @@ def test_the_page_of_the_documentation_says_what_the_table_says(tmp_path: Path) 
         cell = f"{notation.number(float(value), 4)}{space}{unit} (0/1) **missed**"
         assert f"- {row['Target']}, p={row['p [N/m]']},N={row['N']}: {cell}; asked: {row['Threshold']}" in page
         assert f"| {cell} |" in page
+
+
+def test_the_page_of_the_documentation_holds_what_the_full_form_is_expected_to_miss() -> None:
+    page = (DOCS / "sintering-results.md").read_text(encoding="utf-8")
+    missed = [rule for rule in rules(judgement.EXPECTED[True]) if rule.verdict == DIFFER]
+    judged = sum(rule.count for rule in rules(judgement.EXPECTED[True]))
+    met = judged - sum(rule.count for rule in missed)
+    assert f"{met} of {judged} targets are met" in page
+    assert page.count("**missed**; asked:") == judged - met
+    assert all(rule.why and rule.why in page for rule in missed)
