@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import shutil
 import sys
 from pathlib import Path
 
@@ -22,7 +23,15 @@ the model does not reproduce is **missed** and stays. What the numbers are is sa
 
 {summary}
 
+{figures}
+
 """
+# Figures of the page, copied beside it, with their captions.
+FIGURES = {
+    "figure-09": "Density over time, N = 300 (figure 9 of the paper): mean and standard deviation over two seeds.",
+    "figure-15": "Normal forces before and after cool-down, N = 300, p = 100 N/m (figure 15 of the paper).",
+    "strength": "Failure stress and strain over the sintering time: mean and standard deviation over the seeds.",
+}
 SAMPLES = (("10", "100"), ("10", "300"), ("100", "100"), ("100", "300"), ("10", "3"), ("100", "3"))
 CLAIM = ("Target", "Claim", "Paper", "Threshold")
 Row = dict[str, str]
@@ -78,9 +87,14 @@ def page(folder: Path, date: str) -> str:
     for claim, found in claims.items():
         cells = [text.replace("|", "\\|") for text in (*claim, *(_cell(found.get(sample)) for sample in used))]
         lines.append(f"| {' | '.join(cells)} |")
-    return HEAD.format(date=date, summary=_summary(rows, causes)) + "\n".join(lines) + "\n"
+    figures = "\n\n".join(f"![{words}](figures/sintering/{name}.svg)\n\n*{words}*" for name, words in FIGURES.items())
+    return HEAD.format(date=date, summary=_summary(rows, causes), figures=figures) + "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":
-    folder, date = sys.argv[1:]
-    Path(__file__).with_name("sintering-results.md").write_text(page(Path(folder), date))
+    folder, date = Path(sys.argv[1]), sys.argv[2]
+    here = Path(__file__).parent
+    (here / "sintering-results.md").write_text(page(folder, date), encoding="utf-8")
+    (here / "figures" / "sintering").mkdir(parents=True, exist_ok=True)
+    for name in FIGURES:
+        shutil.copy(folder / "figures" / f"{name}.svg", here / "figures" / "sintering" / f"{name}.svg")

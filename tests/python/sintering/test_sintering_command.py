@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 import runpy
 from pathlib import Path
 from typing import Any
@@ -162,3 +163,6 @@ def test_the_page_of_the_documentation_holds_what_the_full_form_is_expected_to_m
     assert f"{met} of {judged} targets are met" in page
     assert page.count("**missed**; asked:") == judged - met
     assert all(rule.why and rule.why in page for rule in missed)
+    pictures = re.findall(r"\]\((figures/\S+)\)", page)
+    assert pictures
+    assert all((DOCS / name).is_file() for name in pictures)
