@@ -176,16 +176,19 @@ impl Chunk<'_> {
             let motion = &mut self.motion[at];
             let acceleration = load.force * (1.0 / motion.mass) + pass.gravity;
             let angular_acceleration = load.torque * (1.0 / self.moment_of_inertia[at]);
+            let (mut velocity, mut angular_velocity) = (motion.velocity, motion.angular_velocity);
             for kick in [pass.close, pass.open] {
                 if kick > 0.0 {
-                    motion.velocity += acceleration * kick;
-                    motion.angular_velocity += angular_acceleration * kick;
+                    velocity += acceleration * kick;
+                    angular_velocity += angular_acceleration * kick;
                 }
             }
+            (motion.velocity, motion.angular_velocity) = (velocity, angular_velocity);
             if pass.drift > 0.0 {
                 let place = &mut self.place[at];
-                place.position += motion.velocity * pass.drift;
-                moved.speed = moved.speed.max(motion.velocity.norm_squared());
+                place.position += velocity * pass.drift;
+                let speed = velocity.norm_squared();
+                moved.speed = if speed > moved.speed { speed } else { moved.speed };
                 if pass.measure {
                     moved.furthest = moved.furthest.max((place.position - self.built[at]).norm_squared());
                 }
