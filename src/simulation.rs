@@ -23,6 +23,7 @@ use crate::observables::energy::Ledger;
 use crate::particles::Particles;
 use crate::path::Path;
 
+use batch::Images;
 use climate::Climate;
 use drive::Driver;
 pub use run::{Checkpoints, Options, run};
@@ -152,6 +153,8 @@ pub struct Simulation<M: ContactModel> {
     drivers: Vec<Driver>,
     neighbors: Neighbors,
     contacts: Contacts<M::History>,
+    /// Those of the domain.
+    images: Images,
     ledger: Ledger,
     step: u64,
     rebuilds: u64,
@@ -197,6 +200,7 @@ impl<M: ContactModel> Simulation<M> {
             drivers: setup.paths.iter().cloned().map(Driver::new).collect(),
             neighbors: Neighbors::new(skin, model.reach()),
             contacts: Contacts::default(),
+            images: Images::new(&setup.domain),
             ledger: Ledger::default(),
             step: 0,
             rebuilds: 0,
@@ -303,6 +307,7 @@ impl<M: ContactModel> Simulation<M> {
                 place.position[axis] = min + (place.position[axis] - min) * factor;
             }
         }
+        self.images = Images::new(&self.domain);
     }
 
     /// Takes back the last half kick of velocity Verlet: the velocities that the present loads saw, to rounding.

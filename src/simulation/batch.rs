@@ -7,6 +7,7 @@
 //! rows with gaps the compiler leaves the last vector of lanes to a scalar loop, an eighth of them at three times the cost.
 
 use crate::Vector;
+use crate::domain::Domain;
 use crate::geometry;
 use crate::laws::model::ContactModel;
 use crate::material::PairProperties;
@@ -48,8 +49,24 @@ pub struct Batch<H> {
 }
 
 /// The row of a vector that has no fourth entry.
-pub fn row(vector: &Vector) -> Row {
+fn row(vector: &Vector) -> Row {
     [vector.x, vector.y, vector.z, 0.0]
+}
+
+/// What the images of pairs add to branches [m].
+pub struct Images {
+    /// For each image.
+    pub shifts: [Vector; 32],
+    /// The same, as rows.
+    pub rows: [Row; 32],
+}
+
+impl Images {
+    /// Those of a domain.
+    pub fn new(domain: &Domain) -> Self {
+        let shifts = domain.shifts();
+        Self { rows: shifts.each_ref().map(row), shifts }
+    }
 }
 
 impl<H: Copy + Default> Batch<H> {

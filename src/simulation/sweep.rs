@@ -15,7 +15,7 @@ use crate::neighbors::Near;
 use crate::particles::{Load, Motion, Place};
 
 use super::Simulation;
-use super::batch::{self, Batch, FEWEST, LANES, Row};
+use super::batch::{Batch, FEWEST, Images, LANES};
 use super::motion::{Chunk, Moved, Pass};
 
 /// Share by which the first, cheap test of a pair is wider than the law's own.
@@ -56,8 +56,7 @@ struct View<'a, M: ContactModel> {
     bodies: &'a [Body],
     plane_radius_factor: Option<f64>,
     cylinder_curvature: Option<f64>,
-    shifts: [Vector; 32],
-    rows: [Row; 32],
+    images: &'a Images,
     /// Gap up to which candidates are selected anew [m].
     selection: Option<f64>,
     elapsed: f64,
@@ -92,8 +91,7 @@ impl<M: ContactModel> Simulation<M> {
             bodies: &self.bodies,
             plane_radius_factor: self.plane_radius_factor,
             cylinder_curvature: self.cylinder_curvature,
-            shifts: self.domain.shifts(),
-            rows: self.domain.shifts().map(|shift| batch::row(&shift)),
+            images: &self.images,
             selection: self.neighbors.selection(self.fastest),
             elapsed,
         };
@@ -198,7 +196,7 @@ impl<M: ContactModel> View<'_, M> {
                 if self.only.is_none() {
                     batch.set_properties(lane, properties);
                 }
-                let (row, history) = (&self.rows[pair.image()], &histories[*slot as usize]);
+                let (row, history) = (&self.images.rows[pair.image()], &histories[*slot as usize]);
                 batch.fill(lane, local.places(pair), motions, row, properties.friction, history);
             }
             batch.evaluate(self.model, *self.shared, self.elapsed);
@@ -257,7 +255,7 @@ impl<M: ContactModel> View<'_, M> {
         let mut count = 0;
         for ((pair, alive), slot) in pairs.candidates.iter().zip(&pairs.alive).zip(0u32..) {
             let [one, other] = local.places(*pair);
-            let squared = (one.position - other.position + self.shifts[pair.image()]).norm_squared();
+            let squared = (one.position - other.position + self.images.shifts[pair.image()]).norm_squared();
             let reach = one.radius + other.radius + gap;
             active[count] = slot;
             count += usize::from((squared < reach * reach * SLACK) | *alive);
@@ -275,7 +273,7 @@ impl<M: ContactModel> View<'_, M> {
         flow: &mut Flow,
     ) -> Option<Action> {
         let ([place_i, place_j], [motion_i, motion_j]) = (local.places(pair), local.motions(pair));
-        let branch = place_i.position - place_j.position + self.shifts[pair.image()];
+        let branch = place_i.position - place_j.position + self.images.shifts[pair.image()];
         let squared = branch.norm_squared();
         let properties =
             self.table[motion_i.material as usize * self.materials + motion_j.material as usize].as_ref()?;
