@@ -21,6 +21,11 @@ over the seeds with their standard deviation, and in brackets how many of them k
 the model does not reproduce is **missed** and stays. What the numbers are is said in
 [the sintering study](sintering.md).
 
+To meet a threshold is not always to meet the paper: thresholds were set around runs of a prototype, and some stand
+apart from the paper's number, which is in the table beside them (T9b at p = 10 N/m without friction, T9d at
+p = 10 N/m). Rows without a threshold are reported only; T17-strain-early and T23v-heat-alone were added after their
+targets were missed, to look for the cause.
+
 {summary}
 
 {figures}
